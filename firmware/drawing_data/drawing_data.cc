@@ -1,0 +1,1 @@
+#include "firmware/drawing_data/drawing_data.h"

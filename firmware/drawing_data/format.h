@@ -1,0 +1,79 @@
+// The two formats of drawing data, word by word. The page beside this file (README.md) has the byte tables.
+//
+// Bare (JP2015-22462A [0029-0031], fig. 3): mesh-max, then per mesh: vertex count, thinning level, X Y Z per vertex.
+// 32-bit little-endian words, IEEE singles; vertex order is a triangle strip.
+// Container: a header and a section table around the same records, for what the patent's layout has no room for.
+#pragma once
+
+#include <cstdint>
+
+namespace usuzumi::firmware::format {
+
+inline constexpr std::uint32_t kMagic = 0x315A5355;      // "USZ1"
+inline constexpr std::uint32_t kByteOrderMark = 0x01020304;
+inline constexpr std::uint16_t kVersionMajor = 1, kVersionMinor = 0;
+inline constexpr std::uint32_t kAbsent = 0xFFFFFFFF;     // an offset or number that is not there
+/// Bounds of the format; a file beyond them is refused.
+inline constexpr std::uint32_t kMaxFileBytes = 0x40000000;
+inline constexpr std::uint32_t kMaxMeshes = 65535;
+
+struct Header {                    // 32 bytes at offset 0
+  std::uint32_t magic = kMagic;
+  std::uint32_t byte_order = kByteOrderMark;
+  std::uint16_t version_minor = kVersionMinor, version_major = kVersionMajor;  // another major is refused
+  std::uint32_t flags = 0;         // none defined; must be 0
+  std::uint32_t file_bytes = 0;    // of the whole file, header included; a multiple of 4
+  std::uint32_t crc32 = 0;         // CRC-32/ISO-HDLC of bytes 24 .. file_bytes-1
+  std::uint32_t section_count = 0;
+  std::uint32_t reserved = 0;
+};
+static_assert(sizeof(Header) == 32);
+
+enum class SectionType : std::uint32_t {  // four letters, first in the low byte
+  kRecords = 0x44434552,       // "RECD": the bare layout, mesh-max first
+  kMeshes = 0x4448534D,        // "MSHD": one MeshDescriptor per record, same order
+  kIndices = 0x58444E49,       // "INDX"
+  kNormals = 0x4C4D524E,       // "NRML"
+  kColours = 0x524C4F43,       // "COLR"
+  kNames = 0x454D414E,                   // "NAME"
+  // Kept for later versions: "TXCO" texture coordinates, "MATL" materials, "TEXT" textures, "SOLD" solids, "LAYR" layers.
+};
+
+struct Section {                   // 16 bytes each, from offset 32
+  SectionType type{};
+  std::uint32_t offset = 0;        // from the file's start; a multiple of 4
+  std::uint32_t bytes = 0;         // a multiple of 4
+  std::uint32_t reserved = 0;
+};
+static_assert(sizeof(Section) == 16);
+
+enum class Topology : std::uint32_t { kStrip = 0, kList = 1, kFan = 2, kIndexed = 3 };
+enum class QuotaKind : std::uint32_t { kNone = 0, kFaces = 1, kMillionths = 2 };  // kMillionths: of the mesh's own faces
+enum class Method : std::uint32_t { kQem = 0 };
+
+inline constexpr std::uint32_t kFlagTelltale = 1;  // never dropped, whatever memory or policy say
+inline constexpr std::uint32_t kFlagTwoSided = 2;  // drawn without culling
+
+struct MeshDescriptor {            // 80 bytes
+  std::uint32_t record_offset = 0; // of the record's vertex-count word, from the file's start
+  Topology topology = Topology::kIndexed;
+  std::uint32_t index_offset = kAbsent;   // from the file's start; kIndexed only
+  std::uint32_t index_count = 0;          // 3 per face
+  std::uint32_t index_bytes = 0;          // 2 or 4
+  std::uint32_t normal_offset = kAbsent;  // PackedNormal per vertex
+  std::uint32_t colour_offset = kAbsent;  // Rgba8 per vertex
+  std::uint32_t base_colour = 0xFFFFFFFF; // Rgba8, where there are no vertex colours
+  QuotaKind quota_kind = QuotaKind::kNone;
+  std::uint32_t quota = 0;
+  float area_threshold_px = -1;           // < 0: none
+  Method method = Method::kQem;
+  std::uint32_t flags = 0;
+  std::uint32_t name_offset = kAbsent;    // into section NAME, from the file's start; UTF-8, no terminator
+  std::uint32_t name_bytes = 0;
+  std::uint32_t texture_coordinate_offset = kAbsent;  // kept for later; must be kAbsent
+  std::uint32_t material = kAbsent;                   // kept for later; must be kAbsent
+  std::uint32_t reserved[3] = {};                     // must be 0
+};
+static_assert(sizeof(MeshDescriptor) == 80);
+
+}  // namespace usuzumi::firmware::format
