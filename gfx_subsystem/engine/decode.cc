@@ -64,7 +64,7 @@ class Decoder {
   Status take(std::uint32_t payload) {
     if (payload != kPayloadWords<Packet>) return fault(StatusCode::kDataLoss, "packet has the wrong length for its opcode");
     Packet p;
-    std::memcpy(&p, &list_[word_ + 1], sizeof p);
+    std::memcpy(static_cast<void*>(&p), &list_[word_ + 1], sizeof p);
     return apply(p);
   }
 
