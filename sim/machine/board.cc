@@ -1,0 +1,47 @@
+#include "sim/machine/board.h"
+
+#include <array>
+
+namespace usuzumi::sim {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+
+constexpr std::array<BoardDescription, 2> kBoards{{
+    {.name = "host-sim",
+     .ram_bytes = 512 * kMiB,
+     .vram_bytes = 64 * kMiB,
+     .cpu_hz = 800'000'000,
+     .engine_hz = 200'000'000,
+     .bus_bytes_per_second = 3'200'000'000,  // 64 bits at 400 MHz
+     .width = 1920,
+     .height = 720,
+     .pixel_format = command::PixelFormat::kXrgb8888,
+     .depth_format = command::DepthFormat::kUnorm24,
+     .command_list_words = 1u << 20},
+    {.name = "small",
+     .ram_bytes = 2 * kMiB,
+     .vram_bytes = 1 * kMiB,
+     .cpu_hz = 400'000'000,
+     .engine_hz = 100'000'000,
+     .bus_bytes_per_second = 400'000'000,  // 32 bits at 100 MHz
+     .width = 480,
+     .height = 272,
+     .pixel_format = command::PixelFormat::kRgb565,
+     .depth_format = command::DepthFormat::kUnorm16,
+     .command_list_words = 1u << 14},
+}};
+
+}  // namespace
+
+const BoardDescription& host_sim() { return kBoards[0]; }
+const BoardDescription& small_board() { return kBoards[1]; }
+std::span<const BoardDescription> boards() { return kBoards; }
+
+const BoardDescription* find_board(std::string_view name) {
+  for (const BoardDescription& board : kBoards)
+    if (board.name == name) return &board;
+  return nullptr;
+}
+
+}  // namespace usuzumi::sim
