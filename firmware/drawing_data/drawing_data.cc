@@ -234,17 +234,25 @@ Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   if (!status.ok()) return status;
   data.bare_ = false;
   data.mesh_max_ = words.at(sections.records.begin);
+  data.first_record_ = sections.records.begin + 4;
   data.descriptors_offset_ = sections.meshes.begin;
   return data;
 }
 
+std::uint32_t DrawingData::next_record(std::uint32_t record_offset) const {
+  return record_offset + record_bytes(Words(rom_).at(record_offset));
+}
+
 MeshView DrawingData::mesh(std::uint32_t n) const {
+  if (!bare_) return mesh_at(n, 0);
+  std::uint32_t offset = first_record_;
+  for (std::uint32_t i = 0; i < n; ++i) offset = next_record(offset);
+  return mesh_at(n, offset);
+}
+
+MeshView DrawingData::mesh_at(std::uint32_t n, std::uint32_t record_offset) const {
   const Words words(rom_);
-  if (bare_) {
-    std::uint32_t offset = 4;
-    for (std::uint32_t i = 0; i < n; ++i) offset += record_bytes(words.at(offset));
-    return bare_view(words, n, offset);
-  }
+  if (bare_) return bare_view(words, n, record_offset);
   const auto d = words.object<format::MeshDescriptor>(descriptors_offset_ + n * static_cast<std::uint32_t>(sizeof(format::MeshDescriptor)));
   MeshView view = bare_view(words, n, d.record_offset);
   const auto vertices = static_cast<std::uint32_t>(view.positions.size());

@@ -52,12 +52,17 @@ class DrawingData {
   std::uint32_t mesh_max() const { return mesh_max_; }
   /// n < mesh_max(). Constant time in a container, linear in n in bare data.
   MeshView mesh(std::uint32_t n) const;
+  /// Constant time in both formats: the caller kept where the n-th record begins, see first_record() and next_record().
+  MeshView mesh_at(std::uint32_t n, std::uint32_t record_offset) const;
+  std::uint32_t first_record() const { return first_record_; }
+  std::uint32_t next_record(std::uint32_t record_offset) const;
   std::span<const std::byte> bytes() const { return rom_; }
 
  private:
   std::span<const std::byte> rom_;
   bool bare_ = true;
   std::uint32_t mesh_max_ = 0;
+  std::uint32_t first_record_ = 4;
   std::uint32_t descriptors_offset_ = 0;
 };
 

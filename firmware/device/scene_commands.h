@@ -1,0 +1,41 @@
+// Writes one frame's command list: the second half of JP2015-22462A fig. 6 (S608-S612), mesh 1 to NEW_MESH_MAX.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/thinning/ram_copy.h"
+#include "firmware/thinning/screen_area.h"
+#include "hal/bus.h"
+#include "hal/command_list.h"
+#include "hal/status.h"
+
+namespace usuzumi::firmware {
+
+/// Light and background of a frame. The defaults suit a model seen from outside: light over the viewer's shoulder.
+struct Lighting {
+  Vec3 to_light{0, 0, 1};  // model space, unit length
+  Vec3 ambient{0.25f, 0.25f, 0.25f};
+  Vec3 diffuse{0.75f, 0.75f, 0.75f};
+  Rgba8 background = rgba8(0, 0, 0);
+};
+
+struct FrameTarget {
+  BusAddress picture = 0;
+  std::uint32_t picture_stride_bytes = 0;
+  command::PixelFormat format = command::PixelFormat::kXrgb8888;
+  BusAddress depth = 0;
+  std::uint32_t depth_stride_bytes = 0;
+  command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
+};
+
+/// Words that the list of `meshes` meshes needs at most.
+std::uint32_t scene_command_words(std::uint32_t meshes);
+
+/// The list, in `words`. kResourceExhausted when it does not fit; kFailedPrecondition when the copy lies where the bus
+/// does not reach.
+Result<std::span<const std::uint32_t>> write_scene(const RamCopy& copy, const View& view, const Lighting& lighting,
+                                                   const FrameTarget& target, const AddressTranslation& bus,
+                                                   std::span<std::uint32_t> words);
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,33 @@
+// Builds one mesh's block of the RAM copy: as it is, collapsed to a quota, or as a point or a line.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/drawing_data/drawing_data.h"
+#include "firmware/simplify/simplify.h"
+#include "firmware/thinning/policy.h"
+#include "firmware/thinning/ram_copy.h"
+#include "hal/clock.h"
+
+namespace usuzumi::firmware {
+
+/// How building a block ended.
+enum class BuildOutcome : std::uint8_t {
+  kBuilt,           // as decided
+  kQuotaNotReached, // collapsed as far as the surface allows, above its quota
+  kUnthinned,       // no room to work in: copied as it is instead
+  kDropped,         // no room even for that: the mesh is not in the copy
+};
+
+struct BuildReport {
+  BuildOutcome outcome = BuildOutcome::kBuilt;
+  float max_error = 0;  // model units, collapsed meshes only
+};
+
+/// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`.
+BuildReport build_mesh(const MeshView& mesh, const Decision& decision, RamCopy& copy, Clock& clock);
+
+/// Bytes that building would need at most, the simplifier's scratch included: what the order of building goes by.
+std::uint64_t working_bytes(const MeshView& mesh, const Decision& decision);
+
+}  // namespace usuzumi::firmware

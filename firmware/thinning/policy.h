@@ -1,0 +1,104 @@
+// Which meshes are thinned: the policies of JP2015-22462A [0014] and [0015], and the face quota of level 3.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/drawing_data/drawing_data.h"
+#include "firmware/simplify/simplify.h"
+#include "firmware/thinning/screen_area.h"
+
+namespace usuzumi::firmware {
+
+/// What a policy chooses among are the meshes that carry its level. An area threshold that the author gave a mesh is a
+/// limit under every policy: above it the mesh is kept.
+enum class PolicyKind : std::uint8_t {
+  kAlways,     // all of them
+  kBelowArea,  // those whose area on the screen is at most the author's threshold, or the policy's where there is none
+  kChosen,     // the named ones
+  kRandom,     // a random subset, the same for the same seed
+};
+
+struct Policy {
+  PolicyKind kind = PolicyKind::kAlways;
+  float area_threshold_px = 0;            // kBelowArea
+  std::span<const std::uint32_t> chosen;  // kChosen: mesh numbers, rising
+  std::uint32_t random_millionths = 0;    // kRandom: the share that is thinned, rounded to the nearest mesh
+  std::uint32_t seed = 1;                 // kRandom
+};
+
+/// A face quota from outside the drawing data. kFaces is one budget over all level-3 meshes, shared by their face counts.
+struct Quota {
+  format::QuotaKind kind = format::QuotaKind::kNone;
+  std::uint32_t value = 0;
+};
+
+/// A level-3 mesh without any quota keeps half of its faces. The number is arbitrary; authors are meant to give their own.
+inline constexpr std::uint32_t kDefaultQuotaMillionths = 500'000;
+
+struct ThinningSettings {
+  bool enabled = true;      // off: every mesh is kept
+  Policy delete_policy;     // level 2
+  Policy collapse_policy;   // level 3
+  Quota quota;              // replaces the authors' quotas where its kind is not kNone
+  Placement placement = Placement::kOptimal;
+};
+
+enum class Action : std::uint8_t { kKeep, kDelete, kCollapse, kPoint, kLine };
+
+/// Why a mesh is treated as it is.
+enum class Reason : std::uint8_t {
+  kAuthorLevel,      // as its level says
+  kLevelUnset,       // no level: kept ([0022])
+  kThinningOff,
+  kAboveArea,        // level 2 to 5, but larger on the screen than the threshold
+  kNotChosen,        // the policy passed it over
+  kTelltale,         // level 2, but a telltale is never deleted
+};
+
+struct Decision {
+  Action action = Action::kKeep;
+  Reason reason = Reason::kAuthorLevel;
+  std::uint32_t target_faces = 0;  // kCollapse
+  Placement placement = Placement::kOptimal;
+  /// Whether the RAM copy of a mesh decided so is the same; the reason does not change the copy.
+  bool same_copy(const Decision& other) const {
+    return action == other.action &&
+           (action != Action::kCollapse || (target_faces == other.target_faces && placement == other.placement));
+  }
+};
+
+/// Counts over the drawing data that policies share among meshes.
+struct LevelTotals {
+  std::uint32_t meshes[kLevelCount] = {};
+  std::uint64_t collapse_faces = 0;  // faces of all level-3 meshes
+};
+
+/// Decides mesh by mesh, in rising order of number: a random subset is drawn as the meshes go by.
+class Decider {
+ public:
+  Decider(const ThinningSettings& settings, const LevelTotals& totals, const View& view);
+  Decision decide(const MeshView& mesh);
+
+  std::uint64_t faces_measured() const { return faces_measured_; }
+
+ private:
+  /// Selection sampling (Knuth, The Art of Computer Programming vol. 2, 3.4.2, algorithm S): exactly `wanted` of `left`.
+  struct Draw {
+    std::uint32_t wanted = 0, left = 0;
+    std::uint64_t state = 0;
+    bool next();
+  };
+
+  bool policy_takes(const Policy& policy, const MeshView& mesh, Draw& draw);
+  bool above_area(const Policy* policy, const MeshView& mesh);
+  std::uint32_t target_faces(const MeshView& mesh) const;
+
+  const ThinningSettings& settings_;
+  const LevelTotals& totals_;
+  const View& view_;
+  Draw delete_draw_, collapse_draw_;
+  std::uint64_t faces_measured_ = 0;
+};
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,126 @@
+#include "firmware/thinning/ram_copy.h"
+
+#include <cstring>
+#include <new>
+
+namespace usuzumi::firmware {
+namespace {
+
+constexpr std::size_t kBlockAlignment = 4;
+constexpr std::size_t kMaxCopyBytes = 0xFFFFFFFCu;  // offsets are 32 bits
+
+template <class Index>
+bool indices_below(const std::byte* indices, std::uint32_t count, std::uint32_t limit) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Index v;
+    std::memcpy(&v, indices + std::size_t{i} * sizeof v, sizeof v);
+    if (v >= limit) return false;
+  }
+  return true;
+}
+
+bool stream_inside(std::uint32_t offset, std::uint64_t bytes, std::uint32_t block_bytes) {
+  return offset % 4 == 0 && offset <= block_bytes && bytes <= block_bytes - offset;
+}
+
+}  // namespace
+
+std::uint32_t CopyMesh::face_count() const {
+  const std::uint32_t n = index_format == command::IndexFormat::kNone ? vertex_count : index_count;
+  switch (topology) {
+    case command::Topology::kTriangles: return n / 3;
+    case command::Topology::kTriangleStrip:
+    case command::Topology::kTriangleFan: return n < 3 ? 0 : n - 2;
+    case command::Topology::kPoints:
+    case command::Topology::kLines: break;
+  }
+  return 0;
+}
+
+Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram) {
+  *this = {};
+  const auto slots = ram.allocate<Slot>(mesh_max);
+  if (slots.data() == nullptr)
+    return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes; meshes", mesh_max};
+  for (Slot& slot : slots) new (&slot) Slot{};
+  const std::size_t rest = ram.available() / kBlockAlignment * kBlockAlignment;
+  const auto memory = ram.allocate<std::byte>(rest > kBlockAlignment ? rest - kBlockAlignment : 0, kBlockAlignment);
+  slots_ = slots;
+  memory_ = memory.first(memory.size() < kMaxCopyBytes ? memory.size() : kMaxCopyBytes);
+  first_ = last_ = mesh_max;
+  return ok_status();
+}
+
+std::uint64_t RamCopy::faces() const {
+  std::uint64_t sum = 0;
+  for (const Slot& slot : slots_)
+    if (slot.present) sum += slot.mesh.face_count();
+  return sum;
+}
+
+void RamCopy::add(std::uint32_t n, const CopyMesh& mesh, std::uint32_t bytes) {
+  Slot& slot = slots_[n];
+  slot = {mesh, static_cast<std::uint32_t>(used_), bytes, mesh_max(), true};
+  if (first_ == mesh_max()) first_ = n; else slots_[last_].next = n;
+  last_ = n;
+  ++present_;
+  note_use(bytes);
+  used_ += bytes;
+}
+
+void RamCopy::drop(std::uint32_t n) {
+  if (!slots_[n].present) return;
+  slots_[n].present = false;
+  --present_;
+  gaps_ = true;
+}
+
+void RamCopy::compact() {
+  if (!gaps_) return;
+  gaps_ = false;
+  std::size_t target = 0;
+  std::uint32_t previous = mesh_max();
+  std::uint32_t first = mesh_max();
+  for (std::uint32_t n = first_; n != mesh_max(); n = slots_[n].next) {
+    Slot& slot = slots_[n];
+    if (!slot.present) continue;
+    if (slot.offset != target) std::memmove(memory_.data() + target, memory_.data() + slot.offset, slot.bytes);
+    slot.offset = static_cast<std::uint32_t>(target);
+    target += slot.bytes;
+    if (previous == mesh_max()) first = n; else slots_[previous].next = n;
+    previous = n;
+  }
+  if (previous != mesh_max()) slots_[previous].next = mesh_max();
+  first_ = first;
+  last_ = previous;
+  used_ = target;
+}
+
+void RamCopy::note_use(std::size_t bytes_of_free_memory) {
+  if (used_ + bytes_of_free_memory > peak_) peak_ = used_ + bytes_of_free_memory;
+}
+
+bool RamCopy::sound() const {
+  std::size_t end = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t n = first_; n != mesh_max(); n = slots_[n].next) {
+    const Slot& slot = slots_[n];
+    const CopyMesh& m = slot.mesh;
+    if (!slot.present || slot.offset < end || slot.bytes > used_ || slot.offset > used_ - slot.bytes) return false;
+    end = std::size_t{slot.offset} + slot.bytes;
+    ++count;
+    if (m.vertex_count == 0 || !stream_inside(0, std::uint64_t{m.vertex_count} * sizeof(Vec3), slot.bytes)) return false;
+    if (m.normal_offset != 0xFFFFFFFF && !stream_inside(m.normal_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes)) return false;
+    if (m.colour_offset != 0xFFFFFFFF && !stream_inside(m.colour_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes)) return false;
+    if (m.index_format == command::IndexFormat::kNone) continue;
+    const std::uint32_t size = m.index_format == command::IndexFormat::kU16 ? 2 : 4;
+    if (!stream_inside(m.index_offset, std::uint64_t{m.index_count} * size, slot.bytes)) return false;
+    const std::byte* indices = block(n) + m.index_offset;
+    if (!(size == 2 ? indices_below<std::uint16_t>(indices, m.index_count, m.vertex_count)
+                    : indices_below<std::uint32_t>(indices, m.index_count, m.vertex_count)))
+      return false;
+  }
+  return count == present_ && end <= used_;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,85 @@
+// The thinned copy of the drawing data in RAM: what the 3D engine is told to draw (JP2015-22462A [0024], fig. 6).
+//
+// Memory is one run of blocks, one per mesh that is present, in the order in which they were built:
+//     positions (12 bytes a vertex) | normals (4) | colours (4) | indices (2 or 4 bytes each, padded to 4)
+// A block that is dropped leaves a gap; compact() slides the later blocks down, so the free part is always one piece.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "hal/arena.h"
+#include "hal/command_list.h"
+#include "hal/status.h"
+#include "hal/vec.h"
+
+namespace usuzumi::firmware {
+
+/// One mesh of the copy. Offsets count from its block's first byte; 0xFFFFFFFF where the stream is absent.
+struct CopyMesh {
+  command::Topology topology = command::Topology::kTriangles;
+  command::IndexFormat index_format = command::IndexFormat::kNone;
+  std::uint32_t vertex_count = 0;
+  std::uint32_t index_count = 0;
+  std::uint32_t normal_offset = 0xFFFFFFFF;
+  std::uint32_t colour_offset = 0xFFFFFFFF;
+  std::uint32_t index_offset = 0xFFFFFFFF;
+  Rgba8 base_colour{};
+  bool two_sided = true;
+
+  std::uint32_t face_count() const;
+};
+
+class RamCopy {
+ public:
+  RamCopy() = default;
+  /// Takes a table of `mesh_max` entries and all that is left of `ram`. kResourceExhausted when the table does not fit.
+  Status begin(std::uint32_t mesh_max, Arena& ram);
+
+  /// Meshes of the drawing data; the copy's own count of meshes is new_mesh_max().
+  std::uint32_t mesh_max() const { return static_cast<std::uint32_t>(slots_.size()); }
+  std::uint32_t new_mesh_max() const { return present_; }
+  std::uint64_t faces() const;
+
+  bool present(std::uint32_t n) const { return slots_[n].present; }
+  /// Only while present(n).
+  const CopyMesh& mesh(std::uint32_t n) const { return slots_[n].mesh; }
+  const std::byte* block(std::uint32_t n) const { return memory_.data() + slots_[n].offset; }
+  std::uint32_t block_bytes(std::uint32_t n) const { return slots_[n].bytes; }
+
+  /// The free memory behind the last block, to build the next one in.
+  std::span<std::byte> free_memory() const { return memory_.subspan(used_); }
+  /// Makes the first `bytes` of free_memory() the block of mesh n, absent until now.
+  void add(std::uint32_t n, const CopyMesh& mesh, std::uint32_t bytes);
+  /// Forgets mesh n; its memory is free after compact().
+  void drop(std::uint32_t n);
+  void compact();
+  /// Builders report the most of free_memory() that they touched.
+  void note_use(std::size_t bytes_of_free_memory);
+
+  /// Every block inside the memory and apart from the others, every index below its mesh's vertex count, and the counts
+  /// consistent: what must hold before the engine is told of the copy.
+  bool sound() const;
+
+  std::size_t used_bytes() const { return used_; }
+  std::size_t peak_bytes() const { return peak_; }
+  std::size_t capacity_bytes() const { return memory_.size(); }
+
+ private:
+  struct Slot {
+    CopyMesh mesh;
+    std::uint32_t offset = 0, bytes = 0;
+    std::uint32_t next = 0;  // the mesh whose block follows in memory; mesh_max() ends the chain
+    bool present = false;
+  };
+
+  std::span<std::byte> memory_;
+  std::span<Slot> slots_;
+  std::uint32_t first_ = 0, last_ = 0;  // chain of blocks in memory order
+  std::uint32_t present_ = 0;
+  std::size_t used_ = 0, peak_ = 0;
+  bool gaps_ = false;  // something was dropped since the last compact()
+};
+
+}  // namespace usuzumi::firmware

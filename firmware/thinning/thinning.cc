@@ -1,0 +1,189 @@
+#include "firmware/thinning/thinning.h"
+
+#include <bit>
+#include <new>
+
+namespace usuzumi::firmware {
+namespace {
+
+/// A quarter of the quotas' quarter is where a shape stops being recognisable; beyond that a mesh is better left out.
+constexpr std::uint32_t kMaxQuotaHalvings = 4;
+
+/// The decision with the quota that memory allows.
+Decision narrowed(Decision decision, std::uint32_t quota_halvings) {
+  decision.target_faces >>= quota_halvings;
+  return decision;
+}
+
+unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
+constexpr unsigned kSizeClasses = 40;  // working bytes of one mesh stay below 2^39: 2^30 bytes of ROM, under 2^8 times that
+
+}  // namespace
+
+Thinning::Priority Thinning::priority(const MeshView& mesh) {
+  if (mesh.telltale()) return kMust;
+  switch (mesh.level) {
+    case Level::kUnset:
+    case Level::kKeep: return kMust;
+    case Level::kPoint:
+    case Level::kLine: return kMark;
+    case Level::kCollapse: return kCollapsible;
+    case Level::kDelete: return kDeletable;
+  }
+  return kDeletable;
+}
+
+Status Thinning::begin(const DrawingData& data, Arena& ram) {
+  begun_ = false;
+  quota_halvings_ = 0;
+  totals_ = {};
+  faces_in_ = 0;
+  data_ = &data;
+  states_ = ram.allocate<MeshState>(data.mesh_max());
+  if (states_.size() != data.mesh_max())
+    return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes; meshes", data.mesh_max()};
+  std::uint32_t record = data.first_record();
+  for (std::uint32_t n = 0; n < data.mesh_max(); ++n, record = data.next_record(record)) {
+    new (&states_[n]) MeshState{};
+    states_[n].record_offset = record;
+    const MeshView mesh = view_of(n);
+    ++totals_.meshes[static_cast<std::size_t>(mesh.level)];
+    faces_in_ += mesh.face_count();
+    if (mesh.level == Level::kCollapse) totals_.collapse_faces += mesh.face_count();
+  }
+  return copy_.begin(data.mesh_max(), ram);
+}
+
+Status Thinning::update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report) {
+  report = {};
+  report.cause = begun_ ? UpdateCause::kDecisions : UpdateCause::kFirst;
+  if (!decide_all(settings, view, clock)) {
+    report.cause = UpdateCause::kUnchanged;
+    return summarize(report);
+  }
+  begun_ = true;
+  quota_halvings_ = 0;
+  build_wanted(clock, report);
+  while (dropped_any(kCollapsible) && quota_halvings_ < kMaxQuotaHalvings && totals_.collapse_faces > 0) {
+    ++quota_halvings_;
+    want_collapses();
+    build_wanted(clock, report);
+  }
+  return summarize(report);
+}
+
+/// Marks the meshes whose copy must be built; false when there are none.
+bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Clock& clock) {
+  Decider decider(settings, totals_, view);
+  bool any = false;
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+    MeshState& state = states_[n];
+    const Decision decision = decider.decide(view_of(n));
+    state.wanted = !state.known || !state.decision.same_copy(decision);
+    state.decision = decision;
+    any = any || state.wanted;
+  }
+  clock.charge(CpuWork::kFaceMeasured, decider.faces_measured());
+  if (!any) return false;
+  // Quotas that an earlier shortage halved, and meshes that it left out, get another chance.
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+    MeshState& state = states_[n];
+    const bool squeezed = quota_halvings_ > 0 && state.decision.action == Action::kCollapse;
+    const bool short_of_room = state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned;
+    if (squeezed || (state.known && short_of_room)) state.wanted = true;
+  }
+  return true;
+}
+
+/// Builds what is wanted: what must be there first, and within a priority the meshes that need most room to work in
+/// first, while there is most.
+void Thinning::build_wanted(Clock& clock, ThinningReport& report) {
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
+    if (states_[n].wanted) copy_.drop(n);
+  copy_.compact();
+  for (std::uint32_t p = 0; p < kPriorityCount; ++p) {
+    std::uint64_t classes = 0;  // bit c: some mesh of this priority is of size class c
+    for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+      if (!states_[n].wanted) continue;
+      const MeshView mesh = view_of(n);
+      if (priority(mesh) == p) classes |= std::uint64_t{1} << size_class(working_bytes(mesh, states_[n].decision));
+    }
+    for (unsigned c = kSizeClasses; c-- > 0;) {
+      if ((classes >> c & 1) == 0) continue;
+      for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+        if (!states_[n].wanted) continue;
+        const MeshView mesh = view_of(n);
+        if (priority(mesh) == p && size_class(working_bytes(mesh, states_[n].decision)) == c) build_one(mesh, clock, report);
+      }
+    }
+  }
+}
+
+void Thinning::build_one(const MeshView& mesh, Clock& clock, ThinningReport& report) {
+  MeshState& state = states_[mesh.number];
+  const Decision decision = narrowed(state.decision, quota_halvings_);
+  do {
+    copy_.drop(mesh.number);  // what a first try left unthinned
+    copy_.compact();
+    state.build = build_mesh(mesh, decision, copy_, clock);
+  } while ((state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned) &&
+           make_room(priority(mesh)));
+  state.wanted = false;
+  state.known = true;
+  ++report.meshes_built;
+  if (decision.action == Action::kCollapse) ++report.meshes_collapsed;
+  if (state.build.max_error > report.max_error) report.max_error = state.build.max_error;
+}
+
+/// Drops one mesh that counts less than `below`, the last of the least, and has it built again when its turn comes;
+/// false when there is none.
+bool Thinning::make_room(Priority below) {
+  for (std::uint32_t p = kPriorityCount; p-- > static_cast<std::uint32_t>(below) + 1;) {
+    for (std::uint32_t n = data_->mesh_max(); n-- > 0;) {
+      if (!copy_.present(n) || priority(view_of(n)) != p) continue;
+      copy_.drop(n);
+      states_[n].wanted = true;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Thinning::dropped_any(Priority up_to) const {
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
+    if (states_[n].build.outcome == BuildOutcome::kDropped && priority(view_of(n)) <= up_to) return true;
+  return false;
+}
+
+/// Everything below the meshes that must be there is built again, with the quotas as they are now.
+void Thinning::want_collapses() {
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
+    if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped) states_[n].wanted = true;
+}
+
+Status Thinning::summarize(ThinningReport& report) const {
+  report.meshes_in = data_->mesh_max();
+  report.meshes_out = copy_.new_mesh_max();
+  report.faces_in = faces_in_;
+  report.faces_out = copy_.faces();
+  report.quota_halvings = quota_halvings_;
+  report.copy_bytes = copy_.used_bytes();
+  report.peak_bytes = copy_.peak_bytes();
+  Status status = copy_.sound() ? ok_status() : Status{StatusCode::kDataLoss, "RAM copy is not sound", 0};
+  for (std::uint32_t n = data_->mesh_max(); n-- > 0;) {
+    switch (states_[n].build.outcome) {
+      case BuildOutcome::kBuilt: break;
+      case BuildOutcome::kQuotaNotReached: ++report.quotas_missed; break;
+      case BuildOutcome::kUnthinned: ++report.meshes_unthinned; break;
+      case BuildOutcome::kDropped:
+        ++report.meshes_dropped;
+        report.first_dropped = n;
+        if (priority(view_of(n)) == kMust)
+          status = {StatusCode::kResourceExhausted, "RAM has no room for a mesh that must be drawn; mesh number", n};
+        break;
+    }
+  }
+  return status;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,90 @@
+// Thinning of the whole drawing data into the RAM copy: the flow of JP2015-22462A figures 6 (S601-S607) and 7.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/drawing_data/drawing_data.h"
+#include "firmware/thinning/mesh_builder.h"
+#include "firmware/thinning/policy.h"
+#include "firmware/thinning/ram_copy.h"
+#include "hal/arena.h"
+#include "hal/clock.h"
+#include "hal/status.h"
+
+namespace usuzumi::firmware {
+
+/// Why an update thinned, or did not.
+enum class UpdateCause : std::uint8_t {
+  kFirst,       // there was no copy yet
+  kDecisions,   // settings, or a mesh's area on the screen, ask for another copy of some mesh
+  kUnchanged,   // nothing asks for another copy: nothing was thinned
+};
+
+struct ThinningReport {
+  UpdateCause cause = UpdateCause::kFirst;
+  std::uint32_t meshes_in = 0;        // MESH_MAX
+  std::uint32_t meshes_out = 0;       // NEW_MESH_MAX
+  std::uint64_t faces_in = 0;
+  std::uint64_t faces_out = 0;        // in the copy
+  std::uint32_t meshes_built = 0;     // copied or thinned by this update; the rest was left as it stood
+  std::uint32_t meshes_collapsed = 0; // of these, by level 3
+  std::uint32_t quotas_missed = 0;    // in the copy: collapsed as far as their surface allows, above the quota
+  std::uint32_t meshes_unthinned = 0; // in the copy as they are because there was no room to thin them
+  std::uint32_t meshes_dropped = 0;   // not in the copy for want of RAM
+  std::uint32_t first_dropped = 0;    // the first such mesh's number, if meshes_dropped > 0
+  std::uint32_t quota_halvings = 0;   // how often every level-3 quota was halved to make the copy fit
+  std::uint64_t copy_bytes = 0;
+  std::uint64_t peak_bytes = 0;       // of the copy's memory, working space included
+  float max_error = 0;                // largest of the meshes collapsed by this update, model units
+};
+
+/// What stands in the copy for one mesh, and why.
+struct MeshState {
+  Decision decision;
+  BuildReport build;
+  std::uint32_t record_offset = 0;
+  bool wanted = false;  // scratch of an update: to be built
+  bool known = false;   // decision and build are those of the copy
+};
+
+/// Keeps the RAM copy in step with settings and view.
+class Thinning {
+ public:
+  /// Takes tables and the copy's memory from `ram`, all of it that is left. `data` must outlive this.
+  Status begin(const DrawingData& data, Arena& ram);
+
+  /// Decides every mesh anew and rebuilds those whose copy would differ. On return the copy is complete and sound.
+  /// When memory runs short the quotas of level 3 are halved, up to four times; then level-2 meshes are left out, then
+  /// level-3 ones. kResourceExhausted, with the mesh's number: a level-1 mesh, a mesh without a level or a telltale
+  /// found no room; the copy then holds what fitted, and must not be taken for the picture.
+  Status update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report);
+
+  const RamCopy& copy() const { return copy_; }
+  const MeshState& state(std::uint32_t n) const { return states_[n]; }
+  const DrawingData& data() const { return *data_; }
+
+ private:
+  /// Who is built, and kept, before whom.
+  enum Priority : std::uint32_t { kMust, kMark, kCollapsible, kDeletable, kPriorityCount };
+  static Priority priority(const MeshView& mesh);
+
+  MeshView view_of(std::uint32_t n) const { return data_->mesh_at(n, states_[n].record_offset); }
+  bool decide_all(const ThinningSettings& settings, const View& view, Clock& clock);
+  void build_wanted(Clock& clock, ThinningReport& report);
+  void build_one(const MeshView& mesh, Clock& clock, ThinningReport& report);
+  bool make_room(Priority below);
+  bool dropped_any(Priority up_to) const;
+  void want_collapses();
+  Status summarize(ThinningReport& report) const;
+
+  const DrawingData* data_ = nullptr;
+  RamCopy copy_;
+  std::span<MeshState> states_;
+  LevelTotals totals_;
+  std::uint64_t faces_in_ = 0;
+  std::uint32_t quota_halvings_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace usuzumi::firmware
