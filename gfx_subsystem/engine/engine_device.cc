@@ -8,10 +8,9 @@
 namespace usuzumi::gfx {
 namespace {
 
-namespace reg = registers::engine;
+namespace reg = engine_registers;
 using reg::ErrorCode;
 
-constexpr std::uint32_t kIrqBits = reg::irq::kDone.mask() | reg::irq::kError.mask() | reg::irq::kDoorbellIgnored.mask();
 constexpr std::uint32_t kAllBits = 0xFFFFFFFFu;
 
 ErrorCode error_code_of(StatusCode code) {
@@ -42,22 +41,22 @@ constexpr std::uint32_t saturated(std::uint64_t v) { return v > kAllBits ? kAllB
 }  // namespace
 
 constexpr RegisterFile<EngineDevice, EngineDevice::kRegisterCount>::Table EngineDevice::kTable{{
-    {.name = "ID", .offset = reg::kId, .reset = reg::kIdValue, .read_only = kAllBits},
-    {.name = "VERSION", .offset = reg::kVersion, .reset = reg::kVersionValue, .read_only = kAllBits},
-    {.name = "CONTROL", .offset = reg::kControl, .strobe = reg::control::kSoftReset.mask(), .on_write = &EngineDevice::on_control},
-    {.name = "STATUS", .offset = reg::kStatus, .read_only = reg::status::kBusy.mask() | reg::status::kError.mask()},
-    {.name = "LIST_ADDRESS", .offset = reg::kListAddress, .writable = kAllBits},
-    {.name = "LIST_WORDS", .offset = reg::kListWords, .writable = reg::list_words::kCount.mask()},
-    {.name = "DOORBELL", .offset = reg::kDoorbell, .strobe = reg::doorbell::kRing.mask(), .on_write = &EngineDevice::on_doorbell},
-    {.name = "IRQ_STATUS", .offset = reg::kIrqStatus, .write_1_to_clear = kIrqBits},
-    {.name = "IRQ_ENABLE", .offset = reg::kIrqEnable, .writable = kIrqBits},
-    {.name = "ERROR_CODE", .offset = reg::kErrorCode, .read_only = kAllBits},
-    {.name = "ERROR_WORD", .offset = reg::kErrorWord, .read_only = kAllBits},
-    {.name = "CYCLES_LOW", .offset = reg::kCyclesLow, .read_only = kAllBits},
-    {.name = "CYCLES_HIGH", .offset = reg::kCyclesHigh, .read_only = kAllBits},
-    {.name = "FACES_DRAWN", .offset = reg::kFacesDrawn, .read_only = kAllBits},
-    {.name = "FACES_IN", .offset = reg::kFacesIn, .read_only = kAllBits},
-    {.name = "VERTICES", .offset = reg::kVertices, .read_only = kAllBits},
+    {.name = "ID", .offset = reg::Id::kOffset, .reset = reg::Id::kReset, .read_only = kAllBits},
+    {.name = "VER", .offset = reg::Ver::kOffset, .reset = reg::Ver::kReset, .read_only = kAllBits},
+    {.name = "CTRL", .offset = reg::Ctrl::kOffset, .strobe = reg::Ctrl::kRst.mask(), .on_write = &EngineDevice::on_control},
+    {.name = "STAT", .offset = reg::Stat::kOffset, .read_only = reg::Stat::kBusy.mask() | reg::Stat::kErr.mask()},
+    {.name = "LADR", .offset = reg::Ladr::kOffset, .writable = kAllBits},
+    {.name = "LWRD", .offset = reg::Lwrd::kOffset, .writable = reg::Lwrd::kWords.mask()},
+    {.name = "BELL", .offset = reg::Bell::kOffset, .strobe = reg::Bell::kRing.mask(), .on_write = &EngineDevice::on_doorbell},
+    {.name = "INTST", .offset = reg::IntSt::kOffset, .write_1_to_clear = reg::kIntAll},
+    {.name = "INTEN", .offset = reg::IntEn::kOffset, .writable = reg::kIntAll},
+    {.name = "ECODE", .offset = reg::ECode::kOffset, .read_only = kAllBits},
+    {.name = "EWORD", .offset = reg::EWord::kOffset, .read_only = kAllBits},
+    {.name = "CYCL", .offset = reg::CycL::kOffset, .read_only = kAllBits},
+    {.name = "CYCH", .offset = reg::CycH::kOffset, .read_only = kAllBits},
+    {.name = "FDRAW", .offset = reg::FDraw::kOffset, .read_only = kAllBits},
+    {.name = "FIN", .offset = reg::FIn::kOffset, .read_only = kAllBits},
+    {.name = "VTX", .offset = reg::Vtx::kOffset, .read_only = kAllBits},
 }};
 
 EngineDevice::EngineDevice(Engine& engine, BusMemory& memory, const Config& config, RegisterLog* log)
@@ -66,7 +65,7 @@ EngineDevice::EngineDevice(Engine& engine, BusMemory& memory, const Config& conf
 }
 
 bool EngineDevice::interrupt_asserted() const {
-  return (registers_.value(reg::kIrqStatus) & registers_.value(reg::kIrqEnable)) != 0;
+  return (registers_.value(reg::IntSt::kOffset) & registers_.value(reg::IntEn::kOffset)) != 0;
 }
 
 void EngineDevice::advance_to(std::uint64_t now) {
@@ -75,17 +74,17 @@ void EngineDevice::advance_to(std::uint64_t now) {
 }
 
 void EngineDevice::on_control(std::uint32_t written, std::uint32_t) {
-  if (reg::control::kSoftReset.get(written) == 0) return;
+  if (reg::Ctrl::kRst.get(written) == 0) return;
   if (busy_) done_time_ = kNever;  // the list that was running never ends
   busy_ = false;
   registers_.reset();
 }
 
 void EngineDevice::on_doorbell(std::uint32_t written, std::uint32_t) {
-  if (reg::doorbell::kRing.get(written) == 0) return;
+  if (reg::Bell::kRing.get(written) == 0) return;
   if (busy_) {
-    registers_.report_illegal_value(reg::kDoorbell, written);
-    registers_.set_bits(reg::kIrqStatus, reg::irq::kDoorbellIgnored.mask());
+    registers_.report_illegal_value(reg::Bell::kOffset, written);
+    registers_.set_bits(reg::IntSt::kOffset, reg::kIntDoorbellIgnored);
     return;
   }
   report_ = {};
@@ -94,12 +93,12 @@ void EngineDevice::on_doorbell(std::uint32_t written, std::uint32_t) {
   start_time_ = now_;
   done_time_ = config_.hangs ? kNever : now_ + time_of(cycles_, config_);
   busy_ = true;
-  registers_.set_value(reg::kStatus, reg::status::kBusy.put(1));
+  registers_.set_value(reg::Stat::kOffset, reg::Stat::kBusy.put(1));
 }
 
 ErrorCode EngineDevice::execute_list() {
-  const BusAddress address = registers_.value(reg::kListAddress);
-  const std::size_t words = reg::list_words::kCount.get(registers_.value(reg::kListWords));
+  const BusAddress address = registers_.value(reg::Ladr::kOffset);
+  const std::size_t words = reg::Lwrd::kWords.get(registers_.value(reg::Lwrd::kOffset));
   if (address % 4 != 0) return refuse_list(ErrorCode::kListUnaligned, "list address is no multiple of 4");
   if (words == 0) return refuse_list(ErrorCode::kListEmpty, "list of no words");
   const std::span<const std::byte> bytes = memory_.read_window(address, words * 4);
@@ -118,15 +117,15 @@ ErrorCode EngineDevice::refuse_list(ErrorCode code, const char* message) {
 void EngineDevice::finish_list() {
   const bool failed = error_code_ != ErrorCode::kNone;
   busy_ = false;
-  registers_.set_value(reg::kStatus, failed ? reg::status::kError.put(1) : 0);
-  registers_.set_value(reg::kErrorCode, static_cast<std::uint32_t>(error_code_));
-  registers_.set_value(reg::kErrorWord, failed ? report_.status.where : 0);
-  registers_.set_value(reg::kCyclesLow, low_word(cycles_));
-  registers_.set_value(reg::kCyclesHigh, high_word(cycles_));
-  registers_.set_value(reg::kFacesDrawn, saturated(report_.counters.faces_drawn));
-  registers_.set_value(reg::kFacesIn, saturated(report_.counters.faces_in));
-  registers_.set_value(reg::kVertices, saturated(report_.counters.vertices_transformed));
-  registers_.set_bits(reg::kIrqStatus, failed ? reg::irq::kError.mask() : reg::irq::kDone.mask());
+  registers_.set_value(reg::Stat::kOffset, failed ? reg::Stat::kErr.put(1) : 0);
+  registers_.set_value(reg::ECode::kOffset, static_cast<std::uint32_t>(error_code_));
+  registers_.set_value(reg::EWord::kOffset, failed ? report_.status.where : 0);
+  registers_.set_value(reg::CycL::kOffset, low_word(cycles_));
+  registers_.set_value(reg::CycH::kOffset, high_word(cycles_));
+  registers_.set_value(reg::FDraw::kOffset, saturated(report_.counters.faces_drawn));
+  registers_.set_value(reg::FIn::kOffset, saturated(report_.counters.faces_in));
+  registers_.set_value(reg::Vtx::kOffset, saturated(report_.counters.vertices_transformed));
+  registers_.set_bits(reg::IntSt::kOffset, failed ? reg::kIntError : reg::kIntDone);
 }
 
 }  // namespace usuzumi::gfx

@@ -56,9 +56,9 @@ class EngineDevice {
 
   void on_control(std::uint32_t written, std::uint32_t before);
   void on_doorbell(std::uint32_t written, std::uint32_t before);
-  /// Fetches the list named by the registers and executes it; the code that ERROR_CODE will show.
-  registers::engine::ErrorCode execute_list();
-  registers::engine::ErrorCode refuse_list(registers::engine::ErrorCode code, const char* message);
+  /// Fetches the list named by the registers and executes it; the code that ECODE will show.
+  engine_registers::ErrorCode execute_list();
+  engine_registers::ErrorCode refuse_list(engine_registers::ErrorCode code, const char* message);
   void finish_list();
 
   Engine& engine_;
@@ -71,7 +71,7 @@ class EngineDevice {
   std::uint64_t cycles_ = 0;
   std::uint64_t lists_executed_ = 0;
   ExecutionReport report_;
-  registers::engine::ErrorCode error_code_ = registers::engine::ErrorCode::kNone;
+  engine_registers::ErrorCode error_code_ = engine_registers::ErrorCode::kNone;
   bool busy_ = false;
 };
 

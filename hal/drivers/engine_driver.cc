@@ -5,11 +5,10 @@
 namespace usuzumi {
 namespace {
 
-namespace reg = registers::engine;
+namespace reg = engine_registers;
 using reg::ErrorCode;
 
-constexpr std::uint32_t kEndInterrupts = reg::irq::kDone.mask() | reg::irq::kError.mask();
-constexpr std::uint32_t kAllInterrupts = kEndInterrupts | reg::irq::kDoorbellIgnored.mask();
+constexpr std::uint32_t kEndInterrupts = reg::kIntDone | reg::kIntError;
 
 /// An interrupt latched for an earlier list can wake one wait that is not meant. More than this many are a fault.
 constexpr int kMaxSpuriousWakes = 4;
@@ -37,17 +36,17 @@ Status engine_fault(std::uint32_t code, std::uint32_t word) {
 }  // namespace
 
 void EngineDriver::reset_and_enable() {
-  write(reg::kControl, reg::control::kSoftReset.put(1));
-  write(reg::kIrqEnable, kEndInterrupts);
+  write(reg::Ctrl::kOffset, reg::Ctrl::kRst.put(1));
+  write(reg::IntEn::kOffset, kEndInterrupts);
   started_ = false;
 }
 
 Status EngineDriver::probe() {
   probed_ = false;
-  const std::uint32_t id = read(reg::kId);
-  if (id != reg::kIdValue) return {StatusCode::kUnavailable, "engine: no 3D engine answers at this address", id};
-  const std::uint32_t version = read(reg::kVersion);
-  if (reg::version::kMajor.get(version) != reg::version::kMajor.get(reg::kVersionValue))
+  const std::uint32_t id = read(reg::Id::kOffset);
+  if (id != reg::Id::kReset) return {StatusCode::kUnavailable, "engine: no 3D engine answers at this address", id};
+  const std::uint32_t version = read(reg::Ver::kOffset);
+  if (reg::Ver::kMajor.get(version) != reg::Ver::kMajor.get(reg::Ver::kReset))
     return {StatusCode::kUnsupported, "engine: rasterizer of another major version", version};
   reset_and_enable();
   probed_ = true;
@@ -57,14 +56,14 @@ Status EngineDriver::probe() {
 Status EngineDriver::start(BusAddress list, std::uint32_t words) {
   if (!probed_) return {StatusCode::kFailedPrecondition, "engine: start before a successful probe", 0};
   if (list == 0 || list % 4 != 0) return {StatusCode::kInvalidArgument, "engine: list address is 0 or no multiple of 4", list};
-  if (words == 0 || words > reg::list_words::kCount.max())
+  if (words == 0 || words > reg::Lwrd::kWords.max())
     return {StatusCode::kInvalidArgument, "engine: list of 0 words or more than 0xFFFFFF", words};
-  if (reg::status::kBusy.get(read(reg::kStatus)) != 0)
+  if (reg::Stat::kBusy.get(read(reg::Stat::kOffset)) != 0)
     return {StatusCode::kUnavailable, "engine: still busy with the last list; wait for it first", 0};
-  write(reg::kIrqStatus, kAllInterrupts);
-  write(reg::kListAddress, list);
-  write(reg::kListWords, words);
-  write(reg::kDoorbell, reg::doorbell::kRing.put(1));
+  write(reg::IntSt::kOffset, reg::kIntAll);
+  write(reg::Ladr::kOffset, list);
+  write(reg::Lwrd::kOffset, words);
+  write(reg::Bell::kOffset, reg::Bell::kRing.put(1));
   started_ = true;
   return ok_status();
 }
@@ -73,11 +72,11 @@ Status EngineDriver::wait_done(std::uint32_t timeout_us) {
   if (!started_) return {StatusCode::kFailedPrecondition, "engine: wait without a started list", 0};
   for (int wake = 0; wake <= kMaxSpuriousWakes; ++wake) {
     const Status waited = interrupts_.wait(Interrupt::kEngineDone, timeout_us);
-    const std::uint32_t ended = read(reg::kIrqStatus) & kEndInterrupts;
+    const std::uint32_t ended = read(reg::IntSt::kOffset) & kEndInterrupts;
     if (ended != 0) {  // even when the wait timed out: the list may have ended just then
-      write(reg::kIrqStatus, ended);
+      write(reg::IntSt::kOffset, ended);
       started_ = false;
-      return reg::irq::kError.get(ended) != 0 ? engine_fault(read(reg::kErrorCode), read(reg::kErrorWord)) : ok_status();
+      return (ended & reg::kIntError) != 0 ? engine_fault(read(reg::ECode::kOffset), read(reg::EWord::kOffset)) : ok_status();
     }
     if (waited.code == StatusCode::kDeadlineExceeded) {
       reset_and_enable();
@@ -90,12 +89,12 @@ Status EngineDriver::wait_done(std::uint32_t timeout_us) {
 }
 
 std::uint64_t EngineDriver::cycles() {
-  return std::uint64_t{read(reg::kCyclesHigh)} << 32 | read(reg::kCyclesLow);
+  return std::uint64_t{read(reg::CycH::kOffset)} << 32 | read(reg::CycL::kOffset);
 }
-std::uint32_t EngineDriver::faces_drawn() { return read(reg::kFacesDrawn); }
-std::uint32_t EngineDriver::faces_in() { return read(reg::kFacesIn); }
-std::uint32_t EngineDriver::vertices() { return read(reg::kVertices); }
-std::uint32_t EngineDriver::error_code() { return read(reg::kErrorCode); }
-std::uint32_t EngineDriver::rasterizer_version() { return read(reg::kVersion); }
+std::uint32_t EngineDriver::faces_drawn() { return read(reg::FDraw::kOffset); }
+std::uint32_t EngineDriver::faces_in() { return read(reg::FIn::kOffset); }
+std::uint32_t EngineDriver::vertices() { return read(reg::Vtx::kOffset); }
+std::uint32_t EngineDriver::error_code() { return read(reg::ECode::kOffset); }
+std::uint32_t EngineDriver::rasterizer_version() { return read(reg::Ver::kOffset); }
 
 }  // namespace usuzumi

@@ -33,7 +33,7 @@ class EngineDriver {
   std::uint32_t faces_drawn();
   std::uint32_t faces_in();
   std::uint32_t vertices();
-  std::uint32_t error_code();  // registers::engine::ErrorCode
+  std::uint32_t error_code();  // engine_registers::ErrorCode
   std::uint32_t rasterizer_version();
 
  private:

@@ -1,8 +1,15 @@
-// Registers of the interrupt controller: one bit per line, bit n for the line `Interrupt` n of hal/clock.h.
+// Registers of the interrupt controller: bit n of each is the line of `Interrupt` n in hal/clock.h.
 //
-// A line that rises is latched in PENDING whether it is enabled or not. It leaves PENDING when acknowledged, or by
-// itself when the device withdraws it. An acknowledged line that stays high is pending again only after it has fallen
-// and risen: a driver that forgets to clear its device's flag waits in vain instead of spinning.
+// A line that rises is latched in PEND whether enabled or not. It leaves PEND when acknowledged, or by itself when the
+// device withdraws it. An acknowledged line that stays high is pending again only after it has fallen and risen: a driver
+// that forgets to clear its device's flag waits in vain instead of spinning.
+//
+//   offset  name   access reset       what
+//   0x000   ID     RO     0x43495A55  "UZIC": tells a driver that an interrupt controller is there
+//   0x004   LINE   RO     0           lines that are high now
+//   0x008   PEND   RO     0           lines that rose and were neither acknowledged nor withdrawn
+//   0x00C   EN     RW     0           lines that interrupt the CPU: those in both PEND and EN
+//   0x010   ACK    WO     0           ones take lines out of PEND; reads zero
 #pragma once
 
 #include <cstdint>
@@ -10,29 +17,27 @@
 #include "hal/clock.h"
 #include "hal/registers/field.h"
 
-namespace usuzumi::registers::interrupt {
+namespace usuzumi::interrupt_registers {
 
-inline constexpr std::uint32_t kBlockBytes = 0x1000;
+inline constexpr std::uint32_t kBlockSize = 0x014;  // bytes of address space
 
-/// 0x00 read-only. Which device this is: "UZIC" in ASCII, first letter in bits 31-24.
-inline constexpr std::uint32_t kId = 0x00;
-inline constexpr std::uint32_t kIdValue = 0x555A4943;
+constexpr std::uint32_t line_bit(Interrupt interrupt) { return 1u << static_cast<unsigned>(interrupt); }
+inline constexpr std::uint32_t kAllLines = (1u << static_cast<unsigned>(Interrupt::kCount)) - 1;
 
-/// The lines' bits, in LINES, PENDING, ENABLE and ACKNOWLEDGE alike.
-inline constexpr std::uint32_t kLineCount = static_cast<std::uint32_t>(Interrupt::kCount);
-constexpr RegisterField line(Interrupt interrupt) { return {static_cast<unsigned>(interrupt), 1}; }
-inline constexpr RegisterField kAllLines{0, kLineCount};
+struct Id {
+  static constexpr std::uint32_t kOffset = 0x000, kReset = 0x43495A55;
+};
+struct Line {
+  static constexpr std::uint32_t kOffset = 0x004;
+};
+struct Pend {
+  static constexpr std::uint32_t kOffset = 0x008;
+};
+struct En {
+  static constexpr std::uint32_t kOffset = 0x00C;
+};
+struct Ack {
+  static constexpr std::uint32_t kOffset = 0x010;
+};
 
-/// 0x04 read-only. Lines that are high now.
-inline constexpr std::uint32_t kLines = 0x04;
-
-/// 0x08 read-only. Lines that rose and were neither acknowledged nor withdrawn.
-inline constexpr std::uint32_t kPending = 0x08;
-
-/// 0x0C read-write. Lines that interrupt the CPU: those in both PENDING and ENABLE.
-inline constexpr std::uint32_t kEnable = 0x0C;
-
-/// 0x10 write-only. Ones take lines out of PENDING.
-inline constexpr std::uint32_t kAcknowledge = 0x10;
-
-}  // namespace usuzumi::registers::interrupt
+}  // namespace usuzumi::interrupt_registers
