@@ -1,0 +1,99 @@
+// The drawing device's main program: boots once, then draws frame after frame (JP2015-22462A fig. 6).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware/device/scene_commands.h"
+#include "firmware/device/vram_layout.h"
+#include "firmware/drawing_data/drawing_data.h"
+#include "firmware/thinning/thinning.h"
+#include "hal/arena.h"
+#include "hal/bus.h"
+#include "hal/clock.h"
+#include "hal/command_list.h"
+#include "hal/drivers/display_driver.h"
+#include "hal/drivers/engine_driver.h"
+#include "hal/status.h"
+
+namespace usuzumi::firmware {
+
+/// What the board gives the firmware. Everything outlives the Device.
+struct DevicePorts {
+  RegisterIo& registers;
+  BusAddress engine_base;
+  BusAddress display_base;
+  InterruptWaiter& interrupts;
+  Clock& clock;
+  const AddressTranslation& bus;
+  std::span<const std::byte> rom;  // drawing data
+  std::span<std::byte> ram;        // work area
+  BusAddress vram_base;
+  std::uint32_t vram_bytes;
+};
+
+struct DeviceConfig {
+  std::uint32_t width = 0, height = 0;  // pixels
+  command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
+  command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
+  std::uint32_t engine_timeout_us = 5'000'000;  // for one frame's command list
+};
+
+struct FrameRequest {
+  Mat4 model_to_clip;
+  Lighting lighting;
+  ThinningSettings thinning;
+};
+
+struct FrameReport {
+  ThinningReport thinning;
+  std::uint64_t engine_cycles = 0;
+  std::uint32_t faces_drawn = 0;        // left after clipping away, culling and zero area
+  std::uint64_t thin_ns = 0;            // deciding and thinning, by the device's clock
+  std::uint64_t draw_ns = 0;            // writing the command list and executing it
+  std::uint64_t wait_ns = 0;            // for the vertical blank that shows the picture
+  std::uint32_t shown_in_frame = 0;     // the display's frame count once this picture has been sent for the first time
+};
+
+class Device {
+ public:
+  explicit Device(const DevicePorts& ports)
+      : ports_(ports), engine_(ports.registers, ports.engine_base, ports.interrupts), display_(ports.registers, ports.display_base) {}
+
+  /// Checks the drawing data, carves RAM and VRAM and brings up engine and display. The panel stays dark until the first
+  /// frame is drawn.
+  Status boot(const DeviceConfig& config);
+
+  /// Thins what has changed, draws into the picture that is not shown, and returns once it is.
+  /// kResourceExhausted: a mesh that must be drawn has no room in RAM; nothing was drawn, the old picture stays.
+  Status draw_frame(const FrameRequest& request, FrameReport& report);
+
+  /// After boot().
+  const DrawingData& drawing_data() const { return data_; }
+  const Thinning& thinning() const { return thinning_; }
+  DisplayDriver& display() { return display_; }
+  const VramLayout& vram() const { return vram_; }
+  /// Most bytes of RAM in use so far: command list, tables and copy with its working space.
+  std::uint64_t ram_peak_bytes() const;
+
+ private:
+  Status boot_display();
+  Status draw_list(const View& view, const Lighting& lighting, FrameReport& report);
+  Status show_picture(FrameReport& report);
+
+  DevicePorts ports_;
+  DeviceConfig config_;
+  EngineDriver engine_;
+  DisplayDriver display_;
+  Arena ram_;
+  DrawingData data_;
+  Thinning thinning_;
+  VramLayout vram_;
+  std::span<std::uint32_t> command_words_;
+  std::uint32_t back_ = 0;  // the picture that is drawn next
+  bool showing_ = false;
+  bool booted_ = false;
+};
+
+}  // namespace usuzumi::firmware
