@@ -1,0 +1,45 @@
+// Which collapses are allowed: those that keep the surface's topology and turn no face over.
+//
+// The topological rule is the link condition of Dey, Edelsbrunner, Guha & Nekhayev, "Topology Preserving Edge
+// Contraction" (1999), in the form that counts faces per edge, so that it also serves input that is no manifold.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/simplify/surface.h"
+
+namespace usuzumi::firmware {
+
+/// More faces than this on one edge are never collapsed.
+inline constexpr std::uint32_t kMostFacesOnEdge = 8;
+
+/// The edge under trial and what looking around it found.
+struct Neighbourhood {
+  std::uint32_t a = 0, b = 0;             // the ends
+  std::uint32_t apex_count = 0;           // third vertices of the edge's faces, each once
+  std::uint32_t apexes[kMostFacesOnEdge];
+  bool touches_refused = false;           // an end or a neighbour carries kTouchesRefused
+  Vec3 area_normal;                       // sum over the faces at either end of twice their area vectors
+  float swept = 0;                        // `area_normal` . x == `swept` where moving both ends to a + x keeps the volume
+};
+
+class CollapseRules {
+ public:
+  explicit CollapseRules(Surface& surface) : surface_(surface) {}
+
+  /// Looks around the edge; false when collapsing it would pinch, fold or close the surface, or would leave an edge with
+  /// more faces than two that no edge there had before.
+  bool keeps_topology(Neighbourhood& n);
+
+  /// True when moving both ends to `position` turns a remaining face by more than the limit or makes it a sliver.
+  bool turns_a_face(const Neighbourhood& n, Vec3 position) const;
+
+ private:
+  void start_marks();
+  bool turns_a_face_at(std::uint32_t v, std::uint32_t other, Vec3 position) const;
+
+  Surface& surface_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,142 @@
+#include "firmware/simplify/edge_collapse.h"
+
+namespace usuzumi::firmware {
+namespace {
+
+// Wedges of the two ends that meet in a removed face become one. Where faces disagree about the partner, the first face
+// decides, and the wedge left over only moves.
+struct WedgePairs {
+  std::uint32_t count = 0;
+  std::uint32_t kept[kMostFacesOnEdge];
+  std::uint32_t removed[kMostFacesOnEdge];
+
+  bool add(std::uint32_t keep, std::uint32_t remove) {
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (kept[i] == keep || removed[i] == remove) return false;
+    kept[count] = keep;
+    removed[count++] = remove;
+    return true;
+  }
+  std::uint32_t successor(std::uint32_t wedge) const {
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (removed[i] == wedge) return kept[i];
+    return wedge;
+  }
+};
+
+struct Merge {
+  Surface& surface;
+  const Neighbourhood& n;
+  std::uint32_t keep, remove;
+  std::uint32_t representatives_lost[kMostFacesOnEdge] = {};  // by apex, of the two edges that fall together there
+  Corner last = kNoCorner;                                    // end of the list being built
+
+  void append(Corner c) {
+    if (last == kNoCorner) {
+      Vertex& v = surface.vertices[keep];
+      v.first_corner = (v.first_corner & ~kCornerMask) | c;
+    } else {
+      std::uint32_t& link = surface.next_corner[corner_index(last)];
+      link = (link & ~kCornerMask) | c;
+    }
+    last = c;
+  }
+
+  // `at_keep` and `at_remove` are the face's corners at the two ends.
+  void remove_face(Corner at_keep, Corner at_remove, Corner at_apex) {
+    const std::uint32_t apex = surface.vertex_at(at_apex);
+    std::uint32_t i = 0;
+    while (n.apexes[i] != apex) ++i;
+    // The half-edge from one end to the other is the collapsed edge; the other two are the apex's.
+    const Corner collapsed = next_in_face(at_keep) == at_remove ? at_keep : at_remove;
+    for (Corner c = next_in_face(collapsed); c != collapsed; c = next_in_face(c))
+      if ((surface.next_corner[corner_index(c)] & kRepresentative) != 0) ++representatives_lost[i];
+    unlink_corner(surface, apex, at_apex);
+    const std::size_t first = std::size_t{at_apex >> 2} * 3;
+    surface.indices[first] = kDeadFace;
+    // The links stay: the other end's list is still to be walked across this face.
+    for (std::size_t k = 0; k < 3; ++k) surface.next_corner[first + k] &= kCornerMask;
+  }
+
+  // Of the two edges that have become one towards `apex`, leaves one representative. The corner that was newly chosen,
+  // or kNoCorner where one of the old ones stays.
+  Corner join_edges(std::uint32_t apex, std::uint32_t lost) {
+    if (lost == 1) return kNoCorner;
+    Corner found = kNoCorner;
+    for (Corner c = surface.first_corner(keep); c != kNoCorner; c = surface.next_corner_of(c)) {
+      Corner half_edge = kNoCorner;
+      if (surface.vertex_at(next_in_face(c)) == apex) half_edge = c;
+      else if (surface.vertex_at(previous_in_face(c)) == apex) half_edge = previous_in_face(c);
+      else continue;
+      std::uint32_t& flags = surface.next_corner[corner_index(half_edge)];
+      if (lost == 2) {
+        flags |= kRepresentative;
+        return half_edge;
+      }
+      if ((flags & kRepresentative) == 0) continue;
+      if (found == kNoCorner) {
+        found = half_edge;
+        continue;
+      }
+      // Two: the refused one goes, for it has no entry in the queue.
+      std::uint32_t& first_flags = surface.next_corner[corner_index(found)];
+      std::uint32_t& drop = (first_flags & kRefused) != 0 ? first_flags : flags;
+      drop &= ~(kRepresentative | kRefused);
+      return kNoCorner;
+    }
+    return kNoCorner;
+  }
+};
+
+}  // namespace
+
+CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
+                            const Neighbourhood& n, float t) {
+  const bool a_stays = n.a < n.b;
+  Merge merge{.surface = surface, .n = n, .keep = a_stays ? n.a : n.b, .remove = a_stays ? n.b : n.a};
+  const float keep_to_remove = a_stays ? t : 1.0f - t;
+  CollapsedEdge result;
+  result.vertex = merge.keep;
+
+  WedgePairs pairs;
+  const Corner first_removed = surface.first_corner(merge.remove);
+  for (Corner c = surface.first_corner(merge.keep), next; c != kNoCorner; c = next) {
+    next = surface.next_corner_of(c);
+    const Corner out = next_in_face(c), in = previous_in_face(c);
+    const bool out_removed = surface.vertex_at(out) == merge.remove;
+    if (!out_removed && surface.vertex_at(in) != merge.remove) {
+      merge.append(c);
+      continue;
+    }
+    const Corner at_remove = out_removed ? out : in;
+    if (attributes.any()) {
+      const std::uint32_t kept = surface.indices[corner_index(c)];
+      const std::uint32_t removed = surface.indices[corner_index(at_remove)];
+      if (pairs.add(kept, removed)) attributes.mix(kept, removed, keep_to_remove);
+    }
+    merge.remove_face(c, at_remove, out_removed ? in : out);
+    ++result.faces_removed;
+  }
+  for (Corner c = first_removed, next; c != kNoCorner; c = next) {
+    next = surface.next_corner_of(c);
+    if (surface.is_dead(c >> 2)) continue;
+    std::uint32_t& wedge = surface.indices[corner_index(c)];
+    if (!attributes.any()) {
+      wedge = merge.keep;
+    } else {
+      wedge = pairs.successor(wedge);
+      if (vertex_of_wedge != nullptr) vertex_of_wedge[wedge] = merge.keep;
+    }
+    merge.append(c);
+  }
+  merge.append(kNoCorner);
+  surface.vertices[merge.remove].first_corner = kNoCorner;
+
+  for (std::uint32_t i = 0; i < n.apex_count; ++i) {
+    const Corner chosen = merge.join_edges(n.apexes[i], merge.representatives_lost[i]);
+    if (chosen != kNoCorner) result.uncosted[result.uncosted_count++] = chosen;
+  }
+  return result;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,25 @@
+// Carrying out one edge collapse on the connectivity.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/simplify/attributes.h"
+#include "firmware/simplify/collapse_rules.h"
+#include "firmware/simplify/surface.h"
+
+namespace usuzumi::firmware {
+
+struct CollapsedEdge {
+  std::uint32_t vertex = 0;             // the one that stays: the lower number
+  std::uint32_t faces_removed = 0;
+  std::uint32_t uncosted_count = 0;     // edges whose queue entry went with a removed face
+  Corner uncosted[kMostFacesOnEdge];
+};
+
+/// Merges the ends of `n`'s edge, removes its faces, and joins each pair of edges that falls together under one
+/// representative. Positions and quadrics are the caller's. `t` is the new vertex's place between a (0) and b (1), for
+/// the attributes. `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
+CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
+                            const Neighbourhood& n, float t);
+
+}  // namespace usuzumi::firmware

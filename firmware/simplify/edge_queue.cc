@@ -1,0 +1,81 @@
+#include "firmware/simplify/edge_queue.h"
+
+#include <algorithm>
+
+namespace usuzumi::firmware {
+namespace {
+
+// Four children share a cache line and halve the depth of a binary heap.
+constexpr std::size_t kArity = 4;
+
+}  // namespace
+
+void EdgeQueue::begin_fill() {
+  horizon_ = kEdgeKeyMax;
+  filled_ = 0;
+  heap_size_ = 0;
+  run_begin_ = slots_.size();
+}
+
+void EdgeQueue::halve_fill() {
+  const std::size_t keep = slots_.size() / 2;
+  std::nth_element(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(keep), slots_.end());
+  horizon_ = slots_[keep];
+  filled_ = keep;
+}
+
+void EdgeQueue::end_fill() {
+  // The run is read from its front and has to end where the slots end.
+  run_begin_ = slots_.size() - filled_;
+  std::copy_backward(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(filled_), slots_.end());
+  std::sort(slots_.begin() + static_cast<std::ptrdiff_t>(run_begin_), slots_.end());
+  filled_ = 0;
+}
+
+EdgeKey EdgeQueue::top() const {
+  const EdgeKey run = run_begin_ < slots_.size() ? slots_[run_begin_] : kEdgeKeyMax;
+  const EdgeKey heap = heap_size_ > 0 ? slots_[0] : kEdgeKeyMax;
+  return run < heap ? run : heap;
+}
+
+EdgeKey EdgeQueue::pop() {
+  const EdgeKey run = run_begin_ < slots_.size() ? slots_[run_begin_] : kEdgeKeyMax;
+  if (heap_size_ == 0 || run < slots_[0]) {
+    ++run_begin_;
+    return run;
+  }
+  const EdgeKey top = slots_[0];
+  --heap_size_;
+  if (heap_size_ > 0) sift_down(0, slots_[heap_size_]);
+  return top;
+}
+
+bool EdgeQueue::push(EdgeKey key) {
+  if (key >= horizon_ || heap_size_ == run_begin_) return false;
+  std::size_t hole = heap_size_++;
+  while (hole > 0) {
+    const std::size_t parent = (hole - 1) / kArity;
+    if (slots_[parent] <= key) break;
+    slots_[hole] = slots_[parent];
+    hole = parent;
+  }
+  slots_[hole] = key;
+  return true;
+}
+
+void EdgeQueue::sift_down(std::size_t hole, EdgeKey key) {
+  for (;;) {
+    const std::size_t first = hole * kArity + 1;
+    if (first >= heap_size_) break;
+    const std::size_t last = first + kArity < heap_size_ ? first + kArity : heap_size_;
+    std::size_t least = first;
+    for (std::size_t child = first + 1; child < last; ++child)
+      if (slots_[child] < slots_[least]) least = child;
+    if (slots_[least] >= key) break;
+    slots_[hole] = slots_[least];
+    hole = least;
+  }
+  slots_[hole] = key;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,123 @@
+#include "firmware/simplify/initial_quadrics.h"
+
+#include <cmath>
+
+namespace usuzumi::firmware {
+namespace {
+
+// Weights relative to a face's, which is twice its area. The constraint planes' are relative to the edge's squared
+// length. Chosen by measuring (tests/bench/simplify).
+constexpr float kPointWeight = 1e-5f;
+constexpr float kBorderWeight = 2.0f;
+constexpr float kAttributeBorderWeight = 0.5f;
+
+// In Vertex::mark while a vertex looks at its edges to higher vertices: the number of faces still to be met on the edge
+// (bits 0-29); bit 31: its representative is chosen; bit 30: it has two faces.
+constexpr std::uint32_t kChosen = 1u << 31;
+constexpr std::uint32_t kRegular = 1u << 30;
+
+Vec3 face_normal(const Surface& s, std::uint32_t face) {
+  const Corner c = face * 4;
+  const Vec3 p = s.positions[s.vertex_at(c)];
+  return cross(s.positions[s.vertex_at(c + 1)] - p, s.positions[s.vertex_at(c + 2)] - p);
+}
+
+void add_face_planes(Surface& s) {
+  for (std::uint32_t face = 0; face < s.face_count; ++face) {
+    if (s.is_dead(face)) continue;
+    const Vec3 normal = face_normal(s, face);
+    const float twice_area = length(normal);
+    if (!(twice_area > 0)) continue;  // no plane
+    for (Corner c = face * 4; c < face * 4 + 3; ++c) {
+      Quadric& q = s.vertices[s.vertex_at(c)].quadric;
+      add_plane_through_owner(q, normal, 1.0f / twice_area);
+      add_point_at_owner(q, kPointWeight * twice_area);
+    }
+  }
+}
+
+// The plane through the edge of half-edge `c`, at right angles to its face.
+void add_constraint_plane(Surface& s, Corner c, float weight) {
+  const std::uint32_t a = s.vertex_at(c);
+  const std::uint32_t b = s.vertex_at(next_in_face(c));
+  const Vec3 normal = face_normal(s, c >> 2);
+  const float squared = dot(normal, normal);
+  if (!(squared > 0)) return;
+  // |edge x normal| = |edge| |normal|, so this scale gives the plane the weight |edge|^2.
+  const Vec3 plane = cross(s.positions[b] - s.positions[a], normal);
+  add_plane_through_owner(s.vertices[a].quadric, plane, weight / squared);
+  add_plane_through_owner(s.vertices[b].quadric, plane, weight / squared);
+}
+
+// The half-edge on the edge between `v` and `other` in the face of `v`'s corner `c`.
+Corner half_edge_towards(const Surface& s, Corner c, std::uint32_t other) {
+  return s.vertex_at(next_in_face(c)) == other ? c : previous_in_face(c);
+}
+
+// True where the edge's two faces disagree about the normal or colour at one of its ends.
+bool is_attribute_border(const Surface& s, Corner one, Corner other) {
+  const std::uint32_t a0 = s.indices[corner_index(one)];
+  const std::uint32_t b0 = s.indices[corner_index(next_in_face(one))];
+  std::uint32_t a1 = s.indices[corner_index(other)];
+  std::uint32_t b1 = s.indices[corner_index(next_in_face(other))];
+  if (s.vertex_of_wedge[a1] != s.vertex_of_wedge[a0]) {
+    const std::uint32_t swap = a1;
+    a1 = b1;
+    b1 = swap;
+  }
+  return a0 != a1 || b0 != b1;
+}
+
+// The other half-edge of a two-faced edge whose one is `c`, seen from `v`'s corners after `from`.
+void add_attribute_border(Surface& s, Corner one, Corner from, std::uint32_t other_end) {
+  for (Corner c = s.next_corner_of(from); c != kNoCorner; c = s.next_corner_of(c)) {
+    if (s.vertex_at(next_in_face(c)) != other_end && s.vertex_at(previous_in_face(c)) != other_end) continue;
+    const Corner other = half_edge_towards(s, c, other_end);
+    if (!is_attribute_border(s, one, other)) return;
+    add_constraint_plane(s, one, kAttributeBorderWeight);
+    add_constraint_plane(s, other, kAttributeBorderWeight);
+    return;
+  }
+}
+
+// One edge as met at corner `c` of its lower end.
+void meet_edge(Surface& s, Corner c, Corner half_edge, std::uint32_t other_end) {
+  std::uint32_t& mark = s.vertices[other_end].mark;
+  if ((mark & kChosen) == 0) {
+    if (mark == 2) {
+      mark |= kRegular;
+      if (s.vertex_of_wedge != nullptr) add_attribute_border(s, half_edge, c, other_end);
+    }
+    mark |= kChosen;
+    s.next_corner[corner_index(half_edge)] |= kRepresentative;
+  }
+  if ((mark & kRegular) == 0) add_constraint_plane(s, half_edge, kBorderWeight);
+  --mark;
+  if ((mark & kCornerMask) == 0) mark = 0;
+}
+
+void choose_representatives(Surface& s) {
+  for (std::uint32_t v = 0; v < s.vertex_count; ++v) {
+    for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
+      const std::uint32_t out = s.vertex_at(next_in_face(c));
+      const std::uint32_t in = s.vertex_at(previous_in_face(c));
+      if (out > v) ++s.vertices[out].mark;
+      if (in > v) ++s.vertices[in].mark;
+    }
+    for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
+      const std::uint32_t out = s.vertex_at(next_in_face(c));
+      const std::uint32_t in = s.vertex_at(previous_in_face(c));
+      if (out > v) meet_edge(s, c, c, out);
+      if (in > v) meet_edge(s, c, previous_in_face(c), in);
+    }
+  }
+}
+
+}  // namespace
+
+void set_initial_quadrics(Surface& surface) {
+  add_face_planes(surface);
+  choose_representatives(surface);
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,300 @@
+// Quadric error edge collapse: Garland & Heckbert 1997, section 4; patent JP2015-22462A steps S801-S808.
+//
+// Where we depart from the paper: quadrics are relative to their vertices (quadric.h); pairs are edges only; an edge's
+// cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. With
+// optimal placement a cost only rises as quadrics are summed, so that is the same order; with midpoint placement an edge
+// whose cost has fallen is taken later than it might be.
+#include <cmath>
+
+#include "firmware/simplify/attributes.h"
+#include "firmware/simplify/collapse_rules.h"
+#include "firmware/simplify/edge_collapse.h"
+#include "firmware/simplify/edge_cost.h"
+#include "firmware/simplify/edge_queue.h"
+#include "firmware/simplify/initial_quadrics.h"
+#include "firmware/simplify/simplify.h"
+#include "firmware/simplify/surface.h"
+#include "firmware/simplify/weld.h"
+
+namespace usuzumi::firmware {
+namespace {
+
+constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
+
+constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+
+// Edges of a closed surface are 3/2 of its faces. Fewer slots only mean more fills.
+constexpr std::size_t queue_slots(std::uint32_t face_count) {
+  const std::size_t slots = std::size_t{face_count} + face_count / 2;
+  return slots > EdgeQueue::kLeastSlots ? slots : EdgeQueue::kLeastSlots;
+}
+
+// The welding table lies where links and queue come to lie later.
+constexpr std::size_t links_and_queue_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
+  const std::size_t later = aligned(std::size_t{face_count} * 12) + aligned(queue_slots(face_count) * sizeof(EdgeKey));
+  const std::size_t table = weld_table_slots(vertex_count) * 4;
+  return later > table ? later : table;
+}
+
+// Coordinates are brought near this by a power of two, exactly, so that neither squared areas nor costs leave the range
+// of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
+constexpr float kWorkingExtent = 4096;
+
+class QemSimplifier {
+ public:
+  QemSimplifier(WorkingMesh& mesh, const SimplifyOptions& options)
+      : mesh_(mesh), options_(options), rules_(surface_), queue_({}) {}
+
+  Result<SimplifyOutcome> run(Arena& scratch) {
+    if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
+    build_connectivity();
+    if (faces_ > options_.target_faces) {
+      scale_to_working_extent();
+      set_initial_quadrics(surface_);
+      collapse_to_target();
+      scale_back();
+    }
+    write_result();
+    return outcome_;
+  }
+
+ private:
+  bool carve(Arena& scratch);
+  void build_connectivity();
+  void scale_to_working_extent();
+  void scale_back();
+  void scale_positions(float factor);
+  void collapse_to_target();
+  bool fill_queue();
+  void push_edge(Corner edge);
+  bool try_collapse(Corner edge, const EdgeCost& cost);
+  void refuse(Corner edge);
+  void allow_again_around(std::uint32_t v);
+  void allow_again_at(std::uint32_t v);
+  void write_result();
+
+  EdgeCost cost_of_edge(Corner edge) {
+    ++outcome_.work.edges_costed;
+    return cost_edge(surface_, surface_.vertex_at(edge), surface_.vertex_at(next_in_face(edge)), options_.placement);
+  }
+
+  WorkingMesh& mesh_;
+  const SimplifyOptions options_;
+  Surface surface_;
+  WedgeAttributes attributes_;
+  CollapseRules rules_;
+  EdgeQueue queue_;
+  std::span<std::uint32_t> vertex_of_wedge_;
+  std::span<std::uint32_t> weld_table_;
+  std::uint32_t* seam_map_ = nullptr;  // vertex_of_wedge_ where some vertex has several wedges
+  std::uint32_t faces_ = 0;            // live
+  float scale_ = 1;
+  SimplifyOutcome outcome_;
+};
+
+bool QemSimplifier::carve(Arena& scratch) {
+  const std::span<std::byte> memory =
+      scratch.allocate<std::byte>(qem_scratch_bytes(mesh_.vertex_count, mesh_.face_count) - kAlignment, kAlignment);
+  if (memory.data() == nullptr) return false;
+  Arena arena(memory);
+  vertex_of_wedge_ = arena.allocate<std::uint32_t>(mesh_.vertex_count, kAlignment);
+  surface_.vertices = arena.allocate<Vertex>(mesh_.vertex_count, kAlignment).data();
+  const std::size_t mark = arena.used();
+  weld_table_ = arena.allocate<std::uint32_t>(weld_table_slots(mesh_.vertex_count), kAlignment);
+  arena.rewind(mark);
+  surface_.next_corner = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 3, kAlignment).data();
+  queue_ = EdgeQueue(arena.allocate<EdgeKey>(queue_slots(mesh_.face_count), kAlignment));
+  surface_.positions = mesh_.positions.data();
+  surface_.indices = mesh_.indices.data();
+  surface_.vertex_count = mesh_.vertex_count;
+  surface_.face_count = mesh_.face_count;
+  attributes_ = {mesh_.normals.empty() ? nullptr : mesh_.normals.data(),
+                 mesh_.colours.empty() ? nullptr : mesh_.colours.data()};
+  return true;
+}
+
+void QemSimplifier::build_connectivity() {
+  if (weld(mesh_, vertex_of_wedge_, weld_table_)) {
+    seam_map_ = vertex_of_wedge_.data();
+    surface_.vertex_of_wedge = seam_map_;
+  }
+  faces_ = link_corners(surface_);
+}
+
+void QemSimplifier::scale_to_working_extent() {
+  Vec3 low, high;
+  bool any = false;
+  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) {
+    if (surface_.first_corner(v) == kNoCorner) continue;
+    const Vec3 p = surface_.positions[v];
+    if (!any) low = high = p;
+    any = true;
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
+  }
+  // Halves first: the difference of two finite singles may be infinite.
+  const Vec3 half = high * 0.5f - low * 0.5f;
+  float extent = half.x > half.y ? half.x : half.y;
+  extent = extent > half.z ? extent : half.z;
+  if (!(extent > 0)) return;
+  while (extent * scale_ > kWorkingExtent) scale_ *= 0.5f;
+  while (extent * scale_ <= kWorkingExtent / 2 && scale_ < 0x1p100f) scale_ *= 2.0f;
+  scale_positions(scale_);
+}
+
+void QemSimplifier::scale_back() {
+  scale_positions(1.0f / scale_);
+  outcome_.max_error *= 1.0f / scale_;
+}
+
+void QemSimplifier::scale_positions(float factor) {
+  if (factor == 1.0f) return;
+  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) surface_.positions[v] = surface_.positions[v] * factor;
+}
+
+void QemSimplifier::collapse_to_target() {
+  while (faces_ > options_.target_faces) {
+    if (queue_.empty() && !fill_queue()) {
+      outcome_.stop = StopReason::kNoCollapseAllowed;
+      return;
+    }
+    const EdgeKey key = queue_.pop();
+    ++outcome_.work.queue_operations;
+    const Corner edge = edge_of(key);
+    // Its face may be gone, or another half-edge may stand for the edge now.
+    if ((surface_.next_corner[corner_index(edge)] & kRepresentative) == 0) continue;
+    const EdgeCost cost = cost_of_edge(edge);
+    const EdgeKey now = edge_key(cost.cost, edge);
+    if (now > key && (now > queue_.top() || now >= queue_.horizon())) {
+      queue_.push(now);
+      ++outcome_.work.queue_operations;
+      continue;
+    }
+    if (!try_collapse(edge, cost)) refuse(edge);
+  }
+}
+
+/// All edges but the refused ones, as many of the cheapest as fit. False where there is none.
+bool QemSimplifier::fill_queue() {
+  queue_.begin_fill();
+  for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
+    for (Corner c = face * 4; c < face * 4 + 3; ++c) {
+      if ((surface_.next_corner[corner_index(c)] & (kRepresentative | kRefused)) != kRepresentative) continue;
+      queue_.offer(edge_key(cost_of_edge(c).cost, c));
+      ++outcome_.work.queue_operations;
+    }
+  }
+  queue_.end_fill();
+  return !queue_.empty();
+}
+
+void QemSimplifier::push_edge(Corner edge) {
+  queue_.push(edge_key(cost_of_edge(edge).cost, edge));
+  ++outcome_.work.queue_operations;
+}
+
+bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
+  Neighbourhood n;
+  n.a = surface_.vertex_at(edge);
+  n.b = surface_.vertex_at(next_in_face(edge));
+  if (!rules_.keeps_topology(n)) return false;
+  const Vec3 a = surface_.positions[n.a];
+  const Vec3 position = a + cost.offset;
+  if (rules_.turns_a_face(n, position)) return false;
+
+  const float t = attributes_.any() ? position_along(surface_.positions[n.b] - a, cost.offset) : 0.5f;
+  const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, t);
+  const std::uint32_t v = collapsed.vertex;
+  faces_ -= collapsed.faces_removed;
+  ++outcome_.work.collapses;
+
+  surface_.positions[v] = position;
+  Quadric& quadric = surface_.vertices[v].quadric;
+  quadric = moved_to(cost.quadric, position - a);  // where rounding put it, not where it was meant to go
+  quadric.c = at_least_zero(quadric.c);
+  const float weight = weight_of(quadric);
+  const float error = weight > 0 ? std::sqrt(quadric.c / weight) : 0.0f;
+  if (error > outcome_.max_error) outcome_.max_error = error;
+
+  for (std::uint32_t i = 0; i < collapsed.uncosted_count; ++i) push_edge(collapsed.uncosted[i]);
+  if (n.touches_refused) allow_again_around(v);
+  return true;
+}
+
+void QemSimplifier::refuse(Corner edge) {
+  surface_.next_corner[corner_index(edge)] |= kRefused;
+  surface_.vertices[surface_.vertex_at(edge)].first_corner |= kTouchesRefused;
+  surface_.vertices[surface_.vertex_at(next_in_face(edge))].first_corner |= kTouchesRefused;
+}
+
+// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
+void QemSimplifier::allow_again_around(std::uint32_t v) {
+  allow_again_at(v);
+  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
+    for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
+      const std::uint32_t u = surface_.vertex_at(other);
+      if ((surface_.vertices[u].first_corner & kTouchesRefused) != 0) allow_again_at(u);
+    }
+  }
+}
+
+void QemSimplifier::allow_again_at(std::uint32_t v) {
+  surface_.vertices[v].first_corner &= ~kTouchesRefused;
+  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
+    for (const Corner half_edge : {c, previous_in_face(c)}) {
+      std::uint32_t& flags = surface_.next_corner[corner_index(half_edge)];
+      if ((flags & kRefused) == 0) continue;
+      flags &= ~kRefused;
+      push_edge(half_edge);
+    }
+  }
+}
+
+/// Moves what is left to the front of the mesh's arrays, in its old order.
+void QemSimplifier::write_result() {
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFu, kUsed = 0;
+  Vertex* wedges = surface_.vertices;  // `mark` becomes each wedge's new number
+  for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) wedges[w].mark = kUnused;
+  std::uint32_t faces = 0;
+  for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
+    if (surface_.is_dead(face)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t wedge = mesh_.indices[std::size_t{face} * 3 + k];
+      wedges[wedge].mark = kUsed;
+      mesh_.indices[std::size_t{faces} * 3 + k] = wedge;
+    }
+    ++faces;
+  }
+  if (seam_map_ != nullptr) {
+    for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w)
+      if (wedges[w].mark == kUsed) mesh_.positions[w] = mesh_.positions[seam_map_[w]];
+  }
+  std::uint32_t used = 0;
+  for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) {
+    if (wedges[w].mark == kUnused) continue;
+    mesh_.positions[used] = mesh_.positions[w];
+    if (attributes_.normals != nullptr) mesh_.normals[used] = mesh_.normals[w];
+    if (attributes_.colours != nullptr) mesh_.colours[used] = mesh_.colours[w];
+    wedges[w].mark = used++;
+  }
+  for (std::size_t i = 0; i < std::size_t{faces} * 3; ++i) mesh_.indices[i] = wedges[mesh_.indices[i]].mark;
+  mesh_.vertex_count = used;
+  mesh_.face_count = faces;
+}
+
+}  // namespace
+
+Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch) {
+  if (mesh.face_count > kMostFaces)
+    return Status{StatusCode::kUnsupported, "a mesh has more faces than simplify_qem can number; split it", mesh.face_count};
+  const ScratchScope scope(scratch);
+  QemSimplifier simplifier(mesh, options);
+  return simplifier.run(scratch);
+}
+
+std::size_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
+  return kAlignment + aligned(std::size_t{vertex_count} * 4) + aligned(std::size_t{vertex_count} * sizeof(Vertex)) +
+         links_and_queue_bytes(vertex_count, face_count);
+}
+
+}  // namespace usuzumi::firmware

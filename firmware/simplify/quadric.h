@@ -1,0 +1,91 @@
+// The quadric error metric of Garland & Heckbert, "Surface Simplification Using Quadric Error Metrics" (SIGGRAPH 1997),
+// in single precision.
+//
+// A quadric is the weighted sum of squared distances to a set of planes, Q(x) = x'Ax + 2 b'x + c. Here x is RELATIVE TO
+// THE VERTEX that owns the quadric, not to the model's origin. Far from the origin b and c would be differences of large
+// numbers; near their own vertex they are the small numbers themselves, so that singles are enough where an absolute
+// frame needs doubles. What is left is the rounding of A: distances below about 2.5e-4 of an edge's length are noise.
+#pragma once
+
+#include "hal/vec.h"
+
+namespace usuzumi::firmware {
+
+struct Quadric {
+  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A, symmetric; units: weight
+  Vec3 b;                                                // weight * length
+  float c = 0;                                           // weight * length^2; Q at the owner itself
+};
+static_assert(sizeof(Quadric) == 40);
+
+inline Vec3 multiply(const Quadric& q, Vec3 x) {
+  return {q.xx * x.x + q.xy * x.y + q.xz * x.z, q.xy * x.x + q.yy * x.y + q.yz * x.z,
+          q.xz * x.x + q.yz * x.y + q.zz * x.z};
+}
+
+/// Summed weight of the planes: their unit normals make the trace.
+inline float weight_of(const Quadric& q) { return q.xx + q.yy + q.zz; }
+
+/// Q(x). Rounding can take it a little below zero.
+inline float evaluate(const Quadric& q, Vec3 x) { return dot(x, multiply(q, x) + q.b * 2.0f) + q.c; }
+
+/// Adds a plane through the owner: `weighted_normal` n' = n * s and `scale` = weight / s^2, so that A gains weight * n n'.
+inline void add_plane_through_owner(Quadric& q, Vec3 weighted_normal, float scale) {
+  const Vec3 s = weighted_normal * scale;
+  q.xx += s.x * weighted_normal.x;
+  q.xy += s.x * weighted_normal.y;
+  q.xz += s.x * weighted_normal.z;
+  q.yy += s.y * weighted_normal.y;
+  q.yz += s.y * weighted_normal.z;
+  q.zz += s.z * weighted_normal.z;
+}
+
+/// Adds weight * |x|^2: pulls towards the owner, a little, so that a flat or straight neighbourhood has a minimum too.
+inline void add_point_at_owner(Quadric& q, float weight) {
+  q.xx += weight;
+  q.yy += weight;
+  q.zz += weight;
+}
+
+/// The same quadric about an owner that lies at `to` in the old frame.
+inline Quadric moved_to(const Quadric& q, Vec3 to) {
+  const Vec3 t = multiply(q, to);
+  Quadric r = q;
+  r.b = q.b + t;
+  r.c = q.c + dot(to, q.b + r.b);
+  return r;
+}
+
+/// q + r, where r's owner lies at `offset` in q's frame; the sum is in q's frame.
+inline Quadric sum_with_neighbour(const Quadric& q, const Quadric& r, Vec3 offset) {
+  const Vec3 t = multiply(r, offset);
+  const Vec3 b = r.b - t;
+  return {q.xx + r.xx, q.xy + r.xy, q.xz + r.xz, q.yy + r.yy, q.yz + r.yz, q.zz + r.zz,
+          q.b + b,     q.c + (r.c - dot(offset, r.b + b))};
+}
+
+/// Where Q is least, by an L D L' factorisation (A is positive semidefinite: no pivoting needed). False where a pivot
+/// is below `relative_pivot` of the weight: then A says too little about at least one direction.
+inline bool minimise(const Quadric& q, float relative_pivot, Vec3& x) {
+  const float least = relative_pivot * weight_of(q);
+  if (!(q.xx > least)) return false;
+  const float r0 = 1.0f / q.xx;
+  const float l10 = q.xy * r0;
+  const float l20 = q.xz * r0;
+  const float d1 = q.yy - l10 * q.xy;
+  if (!(d1 > least)) return false;
+  const float r1 = 1.0f / d1;
+  const float e21 = q.yz - l10 * q.xz;
+  const float l21 = e21 * r1;
+  const float d2 = (q.zz - l20 * q.xz) - l21 * e21;
+  if (!(d2 > least)) return false;
+  const float y0 = -q.b.x;
+  const float y1 = -q.b.y - l10 * y0;
+  const float y2 = (-q.b.z - l20 * y0) - l21 * y1;
+  x.z = y2 / d2;
+  x.y = y1 * r1 - l21 * x.z;
+  x.x = (y0 * r0 - l10 * x.y) - l20 * x.z;
+  return true;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,38 @@
+#include "firmware/simplify/surface.h"
+
+namespace usuzumi::firmware {
+
+std::uint32_t link_corners(Surface& surface) {
+  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) surface.vertices[v] = Vertex{};
+  std::uint32_t live = 0;
+  for (std::uint32_t face = surface.face_count; face-- > 0;) {
+    const Corner corner = face * 4;
+    const std::uint32_t v[3] = {surface.vertex_at(corner), surface.vertex_at(corner + 1), surface.vertex_at(corner + 2)};
+    const std::size_t i = corner_index(corner);
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      surface.indices[i] = kDeadFace;
+      for (std::size_t k = 0; k < 3; ++k) surface.next_corner[i + k] = kNoCorner;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      surface.next_corner[i + k] = surface.vertices[v[k]].first_corner;
+      surface.vertices[v[k]].first_corner = corner + k;
+    }
+    ++live;
+  }
+  return live;
+}
+
+void unlink_corner(Surface& surface, std::uint32_t v, Corner c) {
+  const Corner after = surface.next_corner_of(c);
+  Corner walk = surface.first_corner(v);
+  if (walk == c) {
+    surface.vertices[v].first_corner = (surface.vertices[v].first_corner & ~kCornerMask) | after;
+    return;
+  }
+  while (surface.next_corner_of(walk) != c) walk = surface.next_corner_of(walk);
+  std::uint32_t& link = surface.next_corner[corner_index(walk)];
+  link = (link & ~kCornerMask) | after;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,71 @@
+// Connectivity of a triangle mesh while edges collapse: every vertex knows the corners of the faces around it.
+//
+// A corner is 4 * face + k, k = 0..2 (the code never divides by three). The corners of a vertex form a list through
+// `next_corner`, in no geometric order, so that any input has a sound structure: open borders, edges of three or more
+// faces, fans that touch in a point, faces turned the other way. Merging two vertices joins two lists.
+//
+// Corner k also stands for the half-edge from vertex k to vertex k + 1 of its face. Of all the half-edges of an edge
+// exactly one is its representative; the edge's number in the queue is that corner.
+//
+// A wedge is one entry of the vertex arrays: a position with a normal and a colour. A vertex is all wedges of the same
+// position; it goes by the number of the first of them. Indices always name wedges.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware/simplify/quadric.h"
+#include "hal/vec.h"
+
+namespace usuzumi::firmware {
+
+using Corner = std::uint32_t;
+
+inline constexpr Corner kCornerMask = 0x3FFFFFFFu;  // bits 29-0 of a link
+inline constexpr Corner kNoCorner = kCornerMask;    // ends a list
+inline constexpr std::uint32_t kRepresentative = 1u << 30;  // in next_corner: this half-edge stands for its edge
+inline constexpr std::uint32_t kRefused = 1u << 31;  // in next_corner: its collapse was refused and nothing near has changed
+inline constexpr std::uint32_t kTouchesRefused = 1u << 31;  // in first_corner: an edge here may be marked kRefused
+inline constexpr std::uint32_t kDeadFace = 0xFFFFFFFFu;     // in the first index of a face that is gone
+inline constexpr std::uint32_t kMostFaces = (1u << 28) - 1;
+
+constexpr std::size_t corner_index(Corner c) { return c - (c >> 2); }
+constexpr Corner next_in_face(Corner c) { return (c & 3) == 2 ? c - 2 : c + 1; }
+constexpr Corner previous_in_face(Corner c) { return (c & 3) == 0 ? c + 2 : c - 1; }
+
+struct Vertex {
+  Quadric quadric;
+  std::uint32_t first_corner = kNoCorner;
+  std::uint32_t mark = 0;  // scratch of whoever walks a neighbourhood; see each user
+};
+static_assert(sizeof(Vertex) == 48);
+
+/// Non-owning view of the mesh and its connectivity. Vertex arrays are as long as the wedge arrays; only entries that
+/// are vertices are meaningful.
+struct Surface {
+  Vec3* positions = nullptr;            // of vertices; the other wedges' are written at the end
+  std::uint32_t* indices = nullptr;     // 3 per face: wedges
+  std::uint32_t* next_corner = nullptr; // 3 per face: link and flags
+  Vertex* vertices = nullptr;
+  const std::uint32_t* vertex_of_wedge = nullptr;  // null where every wedge is its own vertex
+  std::uint32_t vertex_count = 0;
+  std::uint32_t face_count = 0;  // dead ones included
+
+  std::uint32_t vertex_at(Corner c) const {
+    const std::uint32_t wedge = indices[corner_index(c)];
+    return vertex_of_wedge == nullptr ? wedge : vertex_of_wedge[wedge];
+  }
+  Corner first_corner(std::uint32_t v) const { return vertices[v].first_corner & kCornerMask; }
+  Corner next_corner_of(Corner c) const { return next_corner[corner_index(c)] & kCornerMask; }
+  bool is_dead(std::uint32_t face) const { return indices[std::size_t{face} * 3] == kDeadFace; }
+};
+
+/// Marks faces with two corners at one vertex dead and gives every vertex the list of its corners, lowest first.
+/// Returns the number of live faces.
+std::uint32_t link_corners(Surface& surface);
+
+/// Takes corner `c` out of the list of vertex `v`.
+void unlink_corner(Surface& surface, std::uint32_t v, Corner c);
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,23 @@
+// Finding vertices in a list of wedges: equal positions are one vertex, whatever their normals and colours.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/simplify/simplify.h"
+
+namespace usuzumi::firmware {
+
+/// Slots of the hash table for `vertex_count` wedges: a power of two, at most two thirds full.
+constexpr std::size_t weld_table_slots(std::uint32_t vertex_count) {
+  std::size_t slots = 4;
+  while (slots < std::size_t{vertex_count} + vertex_count / 2) slots *= 2;
+  return slots;
+}
+
+/// Points the indices of wedges that are equal in everything (-0 equals 0) at the first of them, and sets
+/// vertex_of_wedge[w] to the first wedge at w's position. True when some vertex keeps more than one wedge.
+/// `table` has weld_table_slots() entries; `vertex_of_wedge` vertex_count.
+bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span<std::uint32_t> table);
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,73 @@
+// What thinning must keep of a shape, on meshes whose answer is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/firmware/simplify/simplify_fixture.h"
+
+namespace usuzumi::testing {
+namespace {
+
+using firmware::Placement;
+using firmware::StopReason;
+
+TEST(QemShape, ClosedManifoldStaysClosedManifoldAndOriented) {
+  const Mesh sphere = icosphere(4);
+  for (const std::uint32_t target : {2560u, 1000u, 200u, 40u, 8u}) {
+    for (const Placement placement : {Placement::kOptimal, Placement::kMidpoint}) {
+      const Thinned thinned = thin(sphere, target, placement);
+      ASSERT_TRUE(thinned.status.ok());
+      EXPECT_EQ(thinned.outcome.stop, StopReason::kQuotaReached);
+      const MeshTopology t = topology_of(thinned.mesh);
+      EXPECT_LE(t.faces, target);
+      EXPECT_GE(t.faces + 2, target) << "an inner collapse removes two faces, so the quota is missed by one at most";
+      EXPECT_EQ(t.euler(), 2);
+      EXPECT_EQ(t.border_edges, 0u);
+      EXPECT_EQ(t.non_manifold_edges, 0u);
+      EXPECT_EQ(t.misoriented_edges, 0u);
+      for (std::size_t f = 0; f < thinned.mesh.indices.size(); f += 3) {
+        const Vec3 a = thinned.mesh.positions[thinned.mesh.indices[f]], b = thinned.mesh.positions[thinned.mesh.indices[f + 1]],
+                   c = thinned.mesh.positions[thinned.mesh.indices[f + 2]];
+        EXPECT_GT(dot(cross(b - a, c - a), a + b + c), 0) << "face " << f / 3 << " looks inwards at " << target;
+      }
+    }
+  }
+}
+
+TEST(QemShape, PlaneThinsToTwoFacesWithoutError) {
+  const Thinned thinned = thin(grid(16, 16), 2);
+  ASSERT_TRUE(thinned.status.ok());
+  EXPECT_EQ(thinned.outcome.stop, StopReason::kQuotaReached);
+  EXPECT_EQ(thinned.mesh.face_count(), 2u);
+  for (const Vec3 p : thinned.mesh.positions) EXPECT_EQ(p.z, 0.0f);
+}
+
+TEST(QemShape, CornersOfACubeSurvive) {
+  const Thinned thinned = thin(cube(8), 12);
+  ASSERT_TRUE(thinned.status.ok());
+  ASSERT_EQ(thinned.mesh.face_count(), 12u);
+  ASSERT_EQ(thinned.mesh.positions.size(), 8u);
+  for (const float x : {0.0f, 8.0f})
+    for (const float y : {0.0f, 8.0f})
+      for (const float z : {0.0f, 8.0f}) {
+        float nearest = 100;
+        for (const Vec3 p : thinned.mesh.positions) nearest = std::min(nearest, length(p - Vec3{x, y, z}));
+        EXPECT_LT(nearest, 0.01f) << x << ' ' << y << ' ' << z;
+      }
+}
+
+TEST(QemShape, TetrahedronIsNotThinnedForItWouldCollapseToNothing) {
+  Mesh tetrahedron;
+  tetrahedron.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  tetrahedron.indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+  const Thinned thinned = thin(tetrahedron, 1);
+  ASSERT_TRUE(thinned.status.ok());
+  EXPECT_EQ(thinned.outcome.stop, StopReason::kNoCollapseAllowed);
+  EXPECT_EQ(thinned.mesh.indices, tetrahedron.indices);
+  EXPECT_EQ(thinned.mesh.positions, tetrahedron.positions);
+}
+
+}  // namespace
+}  // namespace usuzumi::testing
