@@ -1,0 +1,13 @@
+// usuzumi inspect: what is in a ROM image, and whether it is sound.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace usuzumi::sim {
+
+/// Adds the subcommand to `app`; when it is given, parsing runs it and sets `exit_code` (sim/common/error.h).
+void add_inspect_command(CLI::App& app, int& exit_code);
+
+}  // namespace usuzumi::sim

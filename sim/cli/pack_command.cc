@@ -1,0 +1,159 @@
+#include "sim/cli/pack_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "firmware/drawing_data/drawing_data.h"
+#include "sim/common/error.h"
+#include "sim/common/files.h"
+#include "sim/common/run_command.h"
+#include "sim/pack/levels.h"
+#include "sim/pack/load_model.h"
+#include "sim/pack/rom_writer.h"
+#include "sim/pack/tag_values.h"
+
+namespace usuzumi::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PackOptions {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::vector<std::string> sidecars, levels, quotas, areas, telltales;
+  std::optional<std::uint32_t> default_level;
+  bool bare = false;
+  unsigned time_limit_s = 300;
+};
+
+std::vector<TagRule> option_rules(const PackOptions& options) {
+  std::vector<TagRule> rules;
+  for (const std::string& a : options.levels) rules.push_back(rule_from_option("--level", a, kLevelKey));
+  for (const std::string& a : options.quotas) rules.push_back(rule_from_option("--quota", a, kQuotaKey));
+  for (const std::string& a : options.areas) rules.push_back(rule_from_option("--area", a, kAreaKey));
+  for (const std::string& name : options.telltales) {
+    TagRule rule{name, {}, "--telltale " + name};
+    rule.tags.telltale = true;
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
+std::vector<TagRule> sidecar_rules(const PackOptions& options) {
+  std::vector<TagRule> rules;
+  for (const std::string& file : options.sidecars)
+    for (TagRule& rule : read_sidecar(file)) rules.push_back(std::move(rule));
+  return rules;
+}
+
+/// The patent's layout has a level and nothing else: what it cannot keep must not be asked for.
+void check_bare_can_keep(const std::vector<TagRule>& rules, ExitCode code) {
+  for (const TagRule& rule : rules)
+    if (rule.tags.quota || rule.tags.area_threshold_px || rule.tags.telltale)
+      throw Error(code, fmt::format("{}: --bare keeps levels only, no quota, area or telltale; leave --bare or this out", rule.origin));
+}
+
+void note_what_bare_loses(Model& model) {
+  const auto tagged = std::count_if(model.meshes.begin(), model.meshes.end(), [](const Mesh& mesh) {
+    return mesh.tags.quota || mesh.tags.area_threshold_px || mesh.tags.telltale;
+  });
+  model.notes.push_back("bare drawing data keep positions, faces (as one strip a mesh) and levels; names, normals, colours and sidedness are lost");
+  if (tagged > 0) model.notes.push_back(fmt::format("face quotas, area thresholds or telltale marks of {} meshes are lost as well", tagged));
+}
+
+void check_output_is_no_input(const PackOptions& options) {
+  std::vector<std::string> inputs = options.inputs;
+  inputs.insert(inputs.end(), options.sidecars.begin(), options.sidecars.end());
+  for (const std::string& input : inputs) {
+    std::error_code none;
+    if (fs::equivalent(input, options.output, none))
+      throw Error(ExitCode::kUsage, fmt::format("{}: is an input as well; give -o another name", options.output));
+  }
+}
+
+void print_notes(const Model& model) {
+  constexpr std::size_t kMost = 30;
+  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i) fmt::print(stderr, "note: {}\n", model.notes[i]);
+  if (model.notes.size() > kMost) fmt::print(stderr, "note: and {} more of this kind\n", model.notes.size() - kMost);
+}
+
+void print_summary(const PackOptions& options, const Model& model, std::size_t bytes) {
+  std::size_t vertices = 0, faces = 0;
+  for (const Mesh& mesh : model.meshes) {
+    vertices += mesh.positions.size();
+    faces += mesh.face_count();
+  }
+  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes\n", options.output, options.bare ? "bare drawing data" : "container",
+             model.meshes.size(), vertices, faces, bytes);
+}
+
+int pack(const PackOptions& options) {
+  const std::vector<TagRule> from_options = option_rules(options), from_sidecars = sidecar_rules(options);
+  check_output_is_no_input(options);
+  if (options.bare) {
+    check_bare_can_keep(from_options, ExitCode::kUsage);
+    check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
+  }
+  const std::vector<fs::path> inputs(options.inputs.begin(), options.inputs.end());
+  Model model = load_models(inputs, {std::chrono::seconds(options.time_limit_s)});
+  apply_tags(model, {from_options, from_sidecars, options.default_level});
+  if (options.bare) note_what_bare_loses(model);
+
+  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
+  const auto opened = firmware::DrawingData::open(rom);
+  if (!opened.ok()) throw std::logic_error(fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
+  write_file_atomically(options.output, rom);
+  print_notes(model);
+  print_summary(options, model, rom.size());
+  return exit_status(ExitCode::kOk);
+}
+
+constexpr const char* kFooter =
+    R"(NAME is a mesh's or its node's name (usuzumi inspect lists them); * and ? stand for other characters.
+Levels: 0 unset, 1 keep, 2 delete, 3 collapse, 4 point, 5 line. Precedence: options, sidecar, the node's
+extras, the mesh's extras, --default-level; of several rules from one place that fit a mesh the last wins.
+
+Examples:
+  usuzumi pack car.glb -o car.rom --default-level 1 --level 'Wheel*=3' --quota 'Wheel*=25%' --area 'Wheel*=400'
+  usuzumi pack car.glb -o car.rom --sidecar levels.json
+where levels.json is
+  {"meshes": {"Wheel*": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": false}}})";
+
+}  // namespace
+
+void add_pack_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<PackOptions>();
+  CLI::App* command = app.add_subcommand("pack", "Turn 3D models into a ROM image of drawing data");
+  command->add_option("INPUT", options->inputs, "Model files: .glb .gltf .obj .ply .stl .off .dae .ac")->required();
+  command->add_option("-o,--output", options->output, "ROM image to write")->required();
+  // Each takes one argument, so that an INPUT may follow; each may be repeated.
+  auto repeated = [&](const char* name, std::vector<std::string>& values, const char* help) {
+    return command->add_option(name, values, help)->allow_extra_args(false);
+  };
+  repeated("--sidecar", options->sidecars, "JSON file with thinning properties by mesh name")->type_name("FILE.json");
+  repeated("--level", options->levels, "Thinning level of a mesh, 0 to 5")->type_name("NAME=LEVEL");
+  repeated("--quota", options->quotas, "Faces to keep at level 3: a count or a share")->type_name("NAME=N|P%");
+  repeated("--area", options->areas, "Area on screen up to which level 2 or 3 acts, in pixels")->type_name("NAME=PX");
+  repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
+  command->add_option("--default-level", options->default_level, "Level of the meshes that have none")->check(CLI::Range(0, 5));
+  command->add_flag("--bare", options->bare, "Write the patent's layout alone: strips of positions, and levels");
+  command->add_option("--time-limit", options->time_limit_s, "Seconds after which reading a file is given up")
+      ->check(CLI::Range(1, 86400))
+      ->capture_default_str();
+  command->footer(kFooter);
+  command->callback([options, &exit_code] { run_command(exit_code, [&] { return pack(*options); }); });
+}
+
+}  // namespace usuzumi::sim

@@ -1,0 +1,30 @@
+#include "sim/common/run_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "sim/common/error.h"
+
+namespace usuzumi::sim {
+
+void run_command(int& exit_code, const std::function<int()>& body) {
+  auto report = [&](ExitCode code, const char* line) {
+    std::fflush(stdout);
+    fmt::print(stderr, "usuzumi: {}\n", line);
+    exit_code = exit_status(code);
+  };
+  try {
+    exit_code = body();
+  } catch (const Error& e) {
+    report(e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    report(ExitCode::kDevice, "this computer has too little memory for that; close other programs or use a smaller model");
+  } catch (const std::exception& e) {
+    report(ExitCode::kDevice, fmt::format("a mistake of ours: {}; please report it with the command line", e.what()).c_str());
+  }
+}
+
+}  // namespace usuzumi::sim

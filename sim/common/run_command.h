@@ -1,0 +1,12 @@
+// The frame around every subcommand: errors become one line on standard error and an exit code.
+#pragma once
+
+#include <functional>
+
+namespace usuzumi::sim {
+
+/// Runs `body` and sets `exit_code` to what it returns, or to an Error's code after printing "usuzumi: " and its line.
+/// Exhausted memory and unforeseen exceptions are reported in the same way (kDevice).
+void run_command(int& exit_code, const std::function<int()>& body);
+
+}  // namespace usuzumi::sim

@@ -1,0 +1,24 @@
+// A glTF file before any importer sees it: its JSON, its version, and what in it cannot be read here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace usuzumi::sim {
+
+struct GltfFile {
+  std::vector<std::byte> bytes;
+  bool binary = false;     // .glb
+  int version_major = 2;   // 1 or 2
+  std::map<std::string, std::uint64_t> buffer_files;  // of buffers that lie in files beside: name -> bytes the buffer takes of it
+};
+
+/// Reads `path` and checks, without following it into accessors: container and JSON are whole, the version is 1 or 2, every
+/// required extension is known here, the files of all buffers are there. Throws Error kBadInput that says what to do.
+GltfFile open_gltf(const std::filesystem::path& path);
+
+}  // namespace usuzumi::sim

@@ -1,0 +1,142 @@
+#include "sim/pack/levels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "sim/common/error.h"
+#include "sim/common/files.h"
+#include "sim/pack/names.h"
+#include "sim/pack/tag_values.h"
+
+namespace usuzumi::sim {
+namespace {
+
+using json = nlohmann::ordered_json;  // later rules win, so their order matters
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kLevelDelete = 2, kLevelCollapse = 3;
+
+std::vector<std::string> all_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Mesh& mesh : model.meshes) {
+    names.push_back(mesh.name);
+    if (!mesh.node_name.empty()) names.push_back(mesh.node_name);
+  }
+  return names;
+}
+
+/// The rules' tags by mesh, later rules over earlier ones.
+std::vector<Tags> matched_tags(const Model& model, std::span<const TagRule> rules, ExitCode code) {
+  std::vector<Tags> tags(model.meshes.size());
+  for (const TagRule& rule : rules) {
+    bool used = false;
+    for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+      if (!matches_mesh(rule.pattern, model.meshes[m])) continue;
+      tags[m] = merge_tags(rule.tags, tags[m]);
+      used = true;
+    }
+    if (!used)
+      throw Error(code, fmt::format("{}: no mesh is named '{}'; {}", rule.origin, rule.pattern, suggest(rule.pattern, all_names(model))));
+  }
+  return tags;
+}
+
+TagValue tag_value(const json& v) {
+  TagValue value;
+  if (v.is_boolean())
+    value.truth = v.get<bool>();
+  else if (v.is_number())
+    value.number = v.get<double>();
+  else if (v.is_string())
+    value.text = v.get<std::string>();
+  return value;
+}
+
+/// JSON with the names in each object checked to be different: of two the parser would keep one and not say so.
+json parse_strictly(const std::string& file, const std::vector<std::byte>& bytes) {
+  std::vector<std::set<std::string>> keys;
+  auto watch = [&](int, json::parse_event_t event, json& parsed) -> bool {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+      throw Error(ExitCode::kBadInput, fmt::format("{}: \"{}\" stands twice in one object; remove one", file, parsed.get<std::string>()));
+    return true;
+  };
+  try {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    return json::parse(text, text + bytes.size(), watch);
+  } catch (const json::parse_error& e) {
+    throw Error(ExitCode::kBadInput, fmt::format("{}: not JSON: error at byte {}; mend the file", file, e.byte));
+  }
+}
+
+void note_unused_properties(Model& model) {
+  for (const Mesh& mesh : model.meshes) {
+    const std::uint32_t level = mesh.tags.level.value_or(0);
+    auto note = [&](std::string_view key, std::string_view used_by) {
+      model.notes.push_back(fmt::format("mesh '{}': {} is kept in ROM, but level {} does not use it ({} does)", mesh.name, key, level, used_by));
+    };
+    if (mesh.tags.quota && level != kLevelCollapse) note(kQuotaKey, "3, collapse,");
+    if (mesh.tags.area_threshold_px && level < kLevelDelete) note(kAreaKey, "2, delete, or 3, collapse,");
+  }
+}
+
+}  // namespace
+
+TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key) {
+  const std::size_t equals = argument.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Error(ExitCode::kUsage, fmt::format("{} {}: wants NAME=VALUE, with a mesh's name (* and ? stand for others)", option, argument));
+  TagRule rule{argument.substr(0, equals), {}, fmt::format("{} {}", option, argument)};
+  const std::string wrong = set_tag(rule.tags, key, TagValue{{}, {}, argument.substr(equals + 1)});
+  if (!wrong.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: the value {}", rule.origin, wrong));
+  return rule;
+}
+
+std::vector<TagRule> read_sidecar(const fs::path& path) {
+  const std::string file = path.string();
+  auto refuse = [&](const std::string& why) { throw Error(ExitCode::kBadInput, fmt::format("{}: {}", file, why)); };
+  const json root = parse_strictly(file, read_file(path));
+  if (!root.is_object() || !root.contains("meshes") || !root["meshes"].is_object())
+    refuse("a sidecar is {\"meshes\": {\"NAME\": {\"thinning_level\": 3, …}}}; see usuzumi pack --help");
+  for (const auto& [key, value] : root.items())
+    if (key != "meshes") refuse(fmt::format("\"{}\" is not known here; only \"meshes\" is", key));
+  const std::vector<std::string> known(kTagKeys.begin(), kTagKeys.end());
+  std::vector<TagRule> rules;
+  for (const auto& [pattern, properties] : root["meshes"].items()) {
+    TagRule rule{pattern, {}, fmt::format("{}: meshes.{}", file, pattern)};
+    if (!properties.is_object()) refuse(fmt::format("meshes.{} must be an object of properties", pattern));
+    for (const auto& [key, value] : properties.items()) {
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        refuse(fmt::format("meshes.{}: property \"{}\" is not known; {}", pattern, key, suggest(key, known)));
+      const std::string wrong = set_tag(rule.tags, key, tag_value(value));
+      if (!wrong.empty()) refuse(fmt::format("meshes.{}: {} {}", pattern, key, wrong));
+    }
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
+void apply_tags(Model& model, const TagSources& sources) {
+  const std::vector<Tags> options = matched_tags(model, sources.options, ExitCode::kUsage);
+  const std::vector<Tags> sidecars = matched_tags(model, sources.sidecars, ExitCode::kBadInput);
+  Tags fallback;
+  fallback.level = sources.default_level;
+  bool any_level = false;
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    Tags& tags = model.meshes[m].tags;
+    tags = merge_tags(merge_tags(merge_tags(options[m], sidecars[m]), tags), fallback);
+    any_level = any_level || tags.level;
+  }
+  note_unused_properties(model);
+  if (!any_level)
+    model.notes.push_back(
+        "no mesh has a thinning level, so all are kept whole. Give --level NAME=3 or --default-level 3, or in Blender give the "
+        "objects a custom property thinning_level and tick Export glTF > Include > Data > Custom Properties");
+}
+
+}  // namespace usuzumi::sim

@@ -1,0 +1,121 @@
+#include "sim/pack/load_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "sim/common/error.h"
+#include "sim/pack/gltf_file.h"
+#include "sim/pack/importers.h"
+#include "sim/pack/isolate.h"
+#include "sim/pack/model_bytes.h"
+#include "sim/pack/names.h"
+#include "sim/pack/normals.h"
+#include "sim/pack/weld.h"
+
+namespace usuzumi::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 6> kAssimpExtensions{".obj", ".ply", ".stl", ".off", ".dae", ".ac"};
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// Runs in the isolated process.
+Model import_by_extension(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".gltf" && extension != ".glb") return import_assimp(path);
+  const GltfFile file = open_gltf(path);
+  return file.version_major == 1 ? import_assimp(path) : import_gltf(path, file);
+}
+
+/// Names go into ROM as UTF-8 and into one line of text; formats older than Unicode bring anything.
+std::string clean_name(const std::string& name) {
+  using nlohmann::json;
+  const std::string valid = json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+  std::string clean;
+  for (char c : valid) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '_' : c;
+  return clean;
+}
+
+/// What every importer must deliver, checked where no importer can forget it.
+void check_mesh(const std::string& file, const Mesh& mesh) {
+  auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::kBadInput, fmt::format("{}: mesh '{}': {}; mend it in the modelling tool and export it again", file, mesh.mesh_name, why));
+  };
+  const std::size_t vertices = mesh.positions.size();
+  if (vertices >= firmware::format::kAbsent || mesh.indices.size() >= firmware::format::kAbsent) refuse("too many vertices or faces");
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (!is_finite(mesh.positions[v])) refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
+  for (std::uint32_t i : mesh.indices)
+    if (i >= vertices) refuse(fmt::format("a face refers to vertex {} of {}", i, vertices));
+  if (mesh.indices.size() % 3 != 0 || (!mesh.normals.empty() && mesh.normals.size() != vertices) ||
+      (!mesh.colours.empty() && mesh.colours.size() != vertices))
+    refuse("its arrays do not belong together");
+}
+
+/// From whatever the importer made to what the device draws.
+void finish(const std::string& file, Model& model) {
+  std::vector<Mesh> kept;
+  for (Mesh& mesh : model.meshes) {
+    mesh.mesh_name = clean_name(mesh.mesh_name);
+    mesh.node_name = clean_name(mesh.node_name);
+    check_mesh(file, mesh);
+    const std::uint32_t empty = remove_faces_without_area(mesh);
+    if (empty > 0) model.notes.push_back(fmt::format("{}: mesh '{}': {} faces with two corners at one place are left out", file, mesh.mesh_name, empty));
+    if (mesh.indices.empty()) {
+      model.notes.push_back(fmt::format("{}: mesh '{}' has no faces and is left out", file, mesh.mesh_name));
+      continue;
+    }
+    complete_normals(mesh);
+    weld_vertices(mesh);
+    kept.push_back(std::move(mesh));
+  }
+  model.meshes = std::move(kept);
+  if (model.meshes.empty())
+    throw Error(ExitCode::kBadInput, fmt::format("{}: no triangles in it{}; pack a model that has faces", file,
+                                                 model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
+}
+
+}  // namespace
+
+Model load_model(const fs::path& path, const LoadOptions& options) {
+  const std::string file = path.string();
+  const std::string extension = lower_extension(path);
+  const bool known = extension == ".gltf" || extension == ".glb" ||
+                     std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
+  if (!known)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{}: not a model file that is read here; convert it to .glb .gltf .obj .ply .stl .off .dae or .ac", file));
+  std::error_code none;
+  if (!fs::exists(path, none)) throw Error(ExitCode::kBadInput, fmt::format("{}: no such file; check the name", file));
+  if (fs::is_directory(path, none)) throw Error(ExitCode::kBadInput, fmt::format("{}: is a folder; name a model file in it", file));
+  const std::vector<std::byte> bytes = run_isolated(file, options.time_limit, [&] { return model_to_bytes(import_by_extension(path)); });
+  Model model = model_from_bytes(bytes, file);
+  finish(file, model);
+  make_names_unique(model);
+  return model;
+}
+
+Model load_models(std::span<const fs::path> paths, const LoadOptions& options) {
+  Model all;
+  for (const fs::path& path : paths) {
+    Model model = load_model(path, options);
+    std::move(model.meshes.begin(), model.meshes.end(), std::back_inserter(all.meshes));
+    std::move(model.notes.begin(), model.notes.end(), std::back_inserter(all.notes));
+  }
+  make_names_unique(all);
+  return all;
+}
+
+}  // namespace usuzumi::sim

@@ -1,0 +1,84 @@
+#include "sim/pack/tag_values.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace usuzumi::sim {
+namespace {
+
+/// All of `text` as a plain decimal number: no sign but -, no hexadecimal, no infinity.
+std::optional<double> parse_number(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789.-+eE") != std::string_view::npos) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string spelled(const TagValue& v) {
+  if (v.text) return fmt::format("\"{}\"", *v.text);
+  if (v.number) return fmt::format("{}", *v.number);
+  if (v.truth) return *v.truth ? "true" : "false";
+  return "something else";
+}
+
+std::optional<double> number_of(const TagValue& v) { return v.number ? v.number : (v.text ? parse_number(*v.text) : std::nullopt); }
+
+bool is_count(double d) { return d >= 0 && d <= std::numeric_limits<std::uint32_t>::max() && d == std::floor(d); }
+
+std::optional<FaceQuota> percent_quota(std::string_view text) {
+  if (text.empty() || text.back() != '%') return std::nullopt;
+  const std::optional<double> percent = parse_number(text.substr(0, text.size() - 1));
+  if (!percent || !(*percent > 0) || *percent > 100) return std::nullopt;
+  const auto millionths = static_cast<std::uint32_t>(*percent * 10'000 + 0.5);
+  if (millionths == 0) return std::nullopt;
+  return FaceQuota{firmware::format::QuotaKind::kMillionths, millionths};
+}
+
+std::optional<FaceQuota> parse_quota(const TagValue& v) {
+  if (v.text)
+    if (auto percent = percent_quota(*v.text)) return percent;
+  const auto count = number_of(v);
+  if (!count || !is_count(*count) || *count < 1) return std::nullopt;
+  return FaceQuota{firmware::format::QuotaKind::kFaces, static_cast<std::uint32_t>(*count)};
+}
+
+/// Blender writes a custom property that is a checkbox as true or false, an older one as 0 or 1.
+std::optional<bool> parse_truth(const TagValue& v) {
+  if (v.truth) return v.truth;
+  if (v.text && (*v.text == "true" || *v.text == "false")) return *v.text == "true";
+  const auto number = number_of(v);
+  if (number && (*number == 0 || *number == 1)) return *number == 1;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
+  if (key == kLevelKey) {
+    const auto level = number_of(value);
+    if (!level || !is_count(*level) || *level > 5)
+      return fmt::format("must be 0 (unset), 1 (keep), 2 (delete), 3 (collapse), 4 (point) or 5 (line), not {}", spelled(value));
+    tags.level = static_cast<std::uint32_t>(*level);
+  } else if (key == kQuotaKey) {
+    tags.quota = parse_quota(value);
+    if (!tags.quota) return fmt::format("must be a number of faces from 1, or a share like \"25%\" up to 100%, not {}", spelled(value));
+  } else if (key == kAreaKey) {
+    const auto area = number_of(value);
+    if (!area || !(*area >= 0) || *area > static_cast<double>(std::numeric_limits<float>::max()))
+      return fmt::format("must be an area in pixels, 0 or more, not {}", spelled(value));
+    tags.area_threshold_px = static_cast<float>(*area);
+  } else if (key == kTelltaleKey) {
+    tags.telltale = parse_truth(value);
+    if (!tags.telltale) return fmt::format("must be true or false, not {}", spelled(value));
+  } else {
+    return "is not a thinning property";
+  }
+  return "";
+}
+
+}  // namespace usuzumi::sim
