@@ -25,7 +25,7 @@ inline constexpr EdgeKey kEdgeKeyMax = ~EdgeKey{0};
 class EdgeQueue {
  public:
   /// At least kLeastSlots slots.
-  explicit EdgeQueue(std::span<EdgeKey> slots) : slots_(slots) {}
+  explicit EdgeQueue(std::span<EdgeKey> slots) : slots_(slots), run_begin_(slots.size()) {}
   static constexpr std::size_t kLeastSlots = 16;
 
   /// Filling: begin, offer every edge, end. Only the cheapest that fit are kept.
