@@ -13,6 +13,7 @@
 #include "sim/common/error.h"
 #include "sim/common/files.h"
 #include "sim/pack/gltf_uri.h"
+#include "sim/pack/tag_values.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -126,6 +127,23 @@ void find_buffer_files(const fs::path& path, const json& root, GltfFile& gltf) {
   }
 }
 
+/// Names and thinning properties of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by identifier there.
+std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind, std::vector<std::string>& notes) {
+  std::map<std::string, Gltf1Label> labels;
+  const auto all = root.find(kind);
+  if (all == root.end() || !all->is_object()) return labels;
+  for (const auto& [id, object] : all->items()) {
+    if (!object.is_object()) continue;
+    Gltf1Label& label = labels[id];
+    if (object.contains("name") && object["name"].is_string()) label.name = object["name"].get<std::string>();
+    if (!object.contains("extras") || !object["extras"].is_object()) continue;
+    std::vector<std::pair<std::string, TagValue>> extras;
+    for (const auto& [key, value] : object["extras"].items()) extras.emplace_back(key, tag_value_of(value));
+    label.tags = tags_from_extras(extras, path.string(), fmt::format("{} '{}'", kind, id), notes);
+  }
+  return labels;
+}
+
 }  // namespace
 
 GltfFile open_gltf(const fs::path& path) {
@@ -139,6 +157,10 @@ GltfFile open_gltf(const fs::path& path) {
   if (!file.binary) file.version_major = version;
   if (file.version_major == 2) check_required_extensions(path, root);
   find_buffer_files(path, root, file);
+  if (file.version_major == 1) {
+    file.gltf1_nodes = read_labels(path, root, "nodes", file.notes);
+    file.gltf1_meshes = read_labels(path, root, "meshes", file.notes);
+  }
   return file;
 }
 

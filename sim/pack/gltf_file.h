@@ -8,13 +8,23 @@
 #include <string>
 #include <vector>
 
+#include "sim/pack/model.h"
+
 namespace usuzumi::sim {
+
+/// What glTF 1.0 says of a node or mesh beside its geometry, which assimp does not hand on.
+struct Gltf1Label {
+  std::string name;  // empty where the file has none
+  Tags tags;
+};
 
 struct GltfFile {
   std::vector<std::byte> bytes;
   bool binary = false;     // .glb
   int version_major = 2;   // 1 or 2
   std::map<std::string, std::uint64_t> buffer_files;  // of buffers that lie in files beside: name -> bytes the buffer takes of it
+  std::map<std::string, Gltf1Label> gltf1_nodes, gltf1_meshes;  // glTF 1.0 only, by identifier
+  std::vector<std::string> notes;
 };
 
 /// Reads `path` and checks, without following it into accessors: container and JSON are whole, the version is 1 or 2, every

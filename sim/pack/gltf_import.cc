@@ -17,9 +17,9 @@
 #include "sim/common/files.h"
 #include "sim/pack/colour.h"
 #include "sim/pack/gltf_accessor.h"
-#include "sim/pack/gltf_extras.h"
 #include "sim/pack/gltf_uri.h"
 #include "sim/pack/importers.h"
+#include "sim/pack/tag_values.h"
 #include "sim/pack/text.h"
 #include "sim/pack/transform.h"
 #include "sim/pack/triangles.h"
@@ -80,6 +80,23 @@ tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   return model;
 }
 
+std::vector<std::pair<std::string, TagValue>> properties(const tinygltf::Value& extras) {
+  std::vector<std::pair<std::string, TagValue>> all;
+  if (!extras.IsObject()) return all;
+  for (const std::string& key : extras.Keys()) {
+    const tinygltf::Value& v = extras.Get(key);
+    TagValue value;
+    if (v.IsBool())
+      value.truth = v.Get<bool>();
+    else if (v.IsNumber())
+      value.number = v.GetNumberAsDouble();
+    else if (v.IsString())
+      value.text = v.Get<std::string>();
+    all.emplace_back(key, value);
+  }
+  return all;
+}
+
 class GltfImporter {
  public:
   GltfImporter(const fs::path& path, const tinygltf::Model& gltf)
@@ -99,11 +116,11 @@ class GltfImporter {
 
   void read_extras() {
     for (std::size_t i = 0; i < gltf_.meshes.size(); ++i)
-      mesh_tags_.push_back(tags_from_extras(gltf_.meshes[i].extras, file_, described("mesh", i, gltf_.meshes[i].name), model_.notes));
+      mesh_tags_.push_back(tags_from_extras(properties(gltf_.meshes[i].extras), file_, described("mesh", i, gltf_.meshes[i].name), model_.notes));
     for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) {
       const tinygltf::Node& node = gltf_.nodes[i];
       const std::string whose = described("node", i, node.name);
-      node_tags_.push_back(tags_from_extras(node.extras, file_, whose, model_.notes));
+      node_tags_.push_back(tags_from_extras(properties(node.extras), file_, whose, model_.notes));
       if (node_tags_.back().any() && node.mesh < 0)
         model_.notes.push_back(fmt::format("{}: {} has thinning properties but no mesh, so they do nothing; give them to the nodes with meshes", file_, whose));
     }

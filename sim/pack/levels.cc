@@ -45,17 +45,6 @@ std::vector<Tags> matched_tags(const Model& model, std::span<const TagRule> rule
   return tags;
 }
 
-TagValue tag_value(const json& v) {
-  TagValue value;
-  if (v.is_boolean())
-    value.truth = v.get<bool>();
-  else if (v.is_number())
-    value.number = v.get<double>();
-  else if (v.is_string())
-    value.text = v.get<std::string>();
-  return value;
-}
-
 /// JSON with the names in each object checked to be different: of two the parser would keep one and not say so.
 json parse_strictly(const std::string& file, const std::vector<std::byte>& bytes) {
   std::vector<std::set<std::string>> keys;
@@ -113,7 +102,7 @@ std::vector<TagRule> read_sidecar(const fs::path& path) {
     for (const auto& [key, value] : properties.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
         refuse(fmt::format("meshes.{}: property \"{}\" is not known; {}", pattern, key, suggest(key, known)));
-      const std::string wrong = set_tag(rule.tags, key, tag_value(value));
+      const std::string wrong = set_tag(rule.tags, key, tag_value_of(value));
       if (!wrong.empty()) refuse(fmt::format("meshes.{}: {} {}", pattern, key, wrong));
     }
     rules.push_back(std::move(rule));

@@ -31,12 +31,32 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
+/// assimp names glTF 1.0 meshes by identifier, with "-0", "-1" … for the primitives of one; people know them by name.
+void label_gltf1(const GltfFile& file, Model& model) {
+  model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
+  for (Mesh& mesh : model.meshes) {
+    auto found = file.gltf1_meshes.find(mesh.mesh_name);
+    if (found == file.gltf1_meshes.end()) found = file.gltf1_meshes.find(mesh.mesh_name.substr(0, mesh.mesh_name.rfind('-')));
+    if (found != file.gltf1_meshes.end()) {
+      if (!found->second.name.empty()) mesh.mesh_name = found->second.name;
+      mesh.tags = found->second.tags;
+    }
+    const auto node = file.gltf1_nodes.find(mesh.node_name);
+    if (node == file.gltf1_nodes.end()) continue;
+    if (!node->second.name.empty()) mesh.node_name = node->second.name;
+    mesh.tags = merge_tags(node->second.tags, mesh.tags);
+  }
+}
+
 /// Runs in the isolated process.
 Model import_by_extension(const fs::path& path) {
   const std::string extension = lower_extension(path);
   if (extension != ".gltf" && extension != ".glb") return import_assimp(path);
   const GltfFile file = open_gltf(path);
-  return file.version_major == 1 ? import_assimp(path) : import_gltf(path, file);
+  if (file.version_major == 2) return import_gltf(path, file);
+  Model model = import_assimp(path);
+  label_gltf1(file, model);
+  return model;
 }
 
 /// Names go into ROM as UTF-8 and into one line of text; formats older than Unicode bring anything.
@@ -67,12 +87,14 @@ void check_mesh(const std::string& file, const Mesh& mesh) {
 /// From whatever the importer made to what the device draws.
 void finish(const std::string& file, Model& model) {
   std::vector<Mesh> kept;
+  std::uint64_t empty_faces = 0, meshes_with_empty_faces = 0;
   for (Mesh& mesh : model.meshes) {
     mesh.mesh_name = clean_name(mesh.mesh_name);
     mesh.node_name = clean_name(mesh.node_name);
     check_mesh(file, mesh);
     const std::uint32_t empty = remove_faces_without_area(mesh);
-    if (empty > 0) model.notes.push_back(fmt::format("{}: mesh '{}': {} faces with two corners at one place are left out", file, mesh.mesh_name, empty));
+    empty_faces += empty;
+    if (empty > 0) ++meshes_with_empty_faces;
     if (mesh.indices.empty()) {
       model.notes.push_back(fmt::format("{}: mesh '{}' has no faces and is left out", file, mesh.mesh_name));
       continue;
@@ -82,9 +104,12 @@ void finish(const std::string& file, Model& model) {
     kept.push_back(std::move(mesh));
   }
   model.meshes = std::move(kept);
+  if (empty_faces > 0)
+    model.notes.push_back(fmt::format("{}: {} faces of {} meshes have two corners at one place; they draw nothing and are left out", file,
+                                      empty_faces, meshes_with_empty_faces));
   if (model.meshes.empty())
     throw Error(ExitCode::kBadInput, fmt::format("{}: no triangles in it{}; pack a model that has faces", file,
-                                                 model.notes.empty() ? "" : " (" + model.notes.front() + ")"));
+                                                 model.notes.empty() ? "" : " (" + model.notes.front().substr(file.size() + 2) + ")"));
 }
 
 }  // namespace

@@ -2,13 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "sim/common/error.h"
+#include "sim/pack/names.h"
+
 namespace usuzumi::sim {
 namespace {
+
+constexpr std::size_t kNearlyOurs = 3;  // letters to change in a property's name; arbitrary
 
 /// All of `text` as a plain decimal number: no sign but -, no hexadecimal, no infinity.
 std::optional<double> parse_number(std::string_view text) {
@@ -79,6 +85,22 @@ std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
     return "is not a thinning property";
   }
   return "";
+}
+
+Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file, const std::string& whose,
+                      std::vector<std::string>& notes) {
+  Tags tags;
+  for (const auto& [key, value] : extras) {
+    if (std::find(kTagKeys.begin(), kTagKeys.end(), key) != kTagKeys.end()) {
+      const std::string wrong = set_tag(tags, key, value);
+      if (!wrong.empty()) throw Error(ExitCode::kBadInput, fmt::format("{}: {}: {} {}", file, whose, key, wrong));
+      continue;
+    }
+    for (std::string_view ours : kTagKeys)
+      if (edit_distance(key, ours) <= kNearlyOurs)
+        notes.push_back(fmt::format("{}: {}: property '{}' is not used; did you mean {}?", file, whose, key, ours));
+  }
+  return tags;
 }
 
 }  // namespace usuzumi::sim

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/pack/model.h"
 
@@ -21,7 +23,26 @@ struct TagValue {
   std::optional<std::string> text;  // an option's words are text; "3" is then a number as well
 };
 
+/// `json` is nlohmann::json or ordered_json.
+template <class Json>
+TagValue tag_value_of(const Json& json) {
+  TagValue value;
+  if (json.is_boolean())
+    value.truth = json.template get<bool>();
+  else if (json.is_number())
+    value.number = json.template get<double>();
+  else if (json.is_string())
+    value.text = json.template get<std::string>();
+  return value;
+}
+
 /// Reads `value` for `key` (one of kTagKeys) into `tags`. Returns "" or what is wrong with it: "must be 0 to 5, not 9".
 std::string set_tag(Tags& tags, std::string_view key, const TagValue& value);
+
+/// The tags among the extras of a glTF node or mesh (Blender's custom properties). Other keys are other people's and are left
+/// alone, but one that is nearly a key of ours is told of in `notes`. `whose` ("node 'Leaf'") names the place. Throws Error
+/// kBadInput for a value that cannot be.
+Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file, const std::string& whose,
+                      std::vector<std::string>& notes);
 
 }  // namespace usuzumi::sim
