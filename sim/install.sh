@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that building needs: `install.sh` for the simulator, `install.sh tests` for the tests and
+# benchmarks as well. Says what it installs; does nothing where all is there.
+set -euo pipefail
+
+packages=(g++ cmake make libfmt-dev libcli11-dev nlohmann-json3-dev libassimp-dev libtinygltf-dev libpng-dev libosmesa6-dev
+          assimp-testmodels)
+if [ "${1:-}" = tests ]; then
+  packages+=(clang libclang-rt-14-dev libgtest-dev libgmock-dev libbenchmark-dev libmeshoptimizer-dev xz-utils binutils python3)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "install.sh: this needs Debian's apt-get; install by hand: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "install.sh: run as root, or install by hand: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "Installing Debian packages: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update -q && \
+       "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  tail -n 20 "$log" >&2
+  echo "install.sh: apt-get failed; its last lines stand above" >&2
+  exit 1
+fi

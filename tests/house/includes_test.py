@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Dependencies point one way: reads every #include of the tree and refuses those that a folder may not have."""
+import pathlib
+import re
+import sys
+
+# folder -> what its files may include, by the first words of the include's path. The longest folder that fits rules.
+HOSTED = "hosted"  # the whole C++ library and other libraries
+ALLOWED = {
+    "hal/include": ["hal/"],
+    "hal": ["hal/"],
+    "firmware": ["hal/", "firmware/"],
+    "gfx_subsystem": ["hal/", "gfx_subsystem/"],
+    "gfx_subsystem/engine": ["hal/", "gfx_subsystem/engine/", "gfx_subsystem/register_file.h"],
+    "gfx_subsystem/engine_soft": ["hal/", "gfx_subsystem/engine/", "gfx_subsystem/engine_soft/"],
+    "gfx_subsystem/engine_osmesa": ["hal/", "gfx_subsystem/engine/", "gfx_subsystem/engine_osmesa/", HOSTED],
+    "gfx_subsystem/display": ["hal/", "gfx_subsystem/display/", "gfx_subsystem/register_file.h"],
+    "sim/image": ["hal/", "sim/image/", "sim/common/", HOSTED],
+    "sim/common": ["hal/", "sim/common/", HOSTED],
+    "sim/pack": ["hal/", "firmware/", "sim/common/", "sim/pack/", HOSTED],
+    "sim/panel": ["hal/", "gfx_subsystem/display/video_signal.h", "sim/panel/", "sim/image/", HOSTED],
+    "sim": ["hal/", "firmware/", "gfx_subsystem/", "sim/", HOSTED],
+}
+# What runs on the device uses only these of the standard library: nothing that allocates, throws or needs an OS.
+FREESTANDING = {
+    "algorithm", "array", "atomic", "bit", "cmath", "concepts", "cstddef", "cstdint", "cstring", "limits", "new",
+    "span", "string_view", "type_traits", "utility", "immintrin.h", "arm_neon.h", "tuple", "iterator", "numeric",
+}
+OURS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "tests/", "boards/")
+
+
+def rule_for(folder: str):
+    while folder:
+        if folder in ALLOWED:
+            return ALLOWED[folder]
+        folder = folder.rpartition("/")[0]
+    return None
+
+
+def faults_of(root: pathlib.Path):
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root).as_posix()
+        if path.suffix not in (".h", ".cc") or not name.startswith(("hal/", "firmware/", "gfx_subsystem/", "sim/")):
+            continue
+        allowed = rule_for(name.rpartition("/")[0])
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s*([<"])([^>"]+)[>"]', line)
+            if not match:
+                continue
+            target = match.group(2)
+            if match.group(1) == '"' or target.startswith(OURS):
+                if not target.startswith(tuple(a for a in allowed if a != HOSTED)):
+                    yield f"{name}:{number}: includes {target}, which its folder may not know"
+            elif HOSTED not in allowed and target not in FREESTANDING:
+                yield f"{name}:{number}: includes <{target}>, which the device does not have"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    faults = list(faults_of(root))
+    print("\n".join(faults) if faults else "every include points the right way")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
