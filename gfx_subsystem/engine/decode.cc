@@ -175,7 +175,7 @@ class Decoder {
     if (state_.colour_memory.empty()) return fault(StatusCode::kFailedPrecondition, "clear before a colour target is set");
     if ((p.planes & ~(kClearColour | kClearDepth)) != 0 || !in_unit(p.depth)) return refuse("clear: undefined plane, or depth outside [0, 1]");
     if ((p.planes & kClearDepth) != 0 && state_.depth_memory.empty()) return fault(StatusCode::kFailedPrecondition, "clear of depth without a depth target");
-    return sink_.clear(state_, p);
+    return at_this_word(sink_.clear(state_, p));
   }
 
   Status apply(const Draw& p) {
@@ -188,7 +188,24 @@ class Decoder {
     call.word = static_cast<std::uint32_t>(word_);
     if (p.count == 0) return ok_status();
     Status status = p.index_format == IndexFormat::kNone ? resolve_range(call) : resolve_indices(call);
-    return status.ok() ? sink_.draw(state_, call) : status;
+    if (status.ok() && touches_target(call)) status = refuse("draw: vertices or indices lie in the target");
+    return status.ok() ? at_this_word(sink_.draw(state_, call)) : status;
+  }
+
+  Status at_this_word(Status status) const {
+    if (!status.ok()) status.where = static_cast<std::uint32_t>(word_);
+    return status;
+  }
+
+  /// An engine may read vertices long before or after it writes the pixels of other draws, so the two must not overlap.
+  bool touches_target(const DrawCall& call) const {
+    const auto overlaps = [](std::span<const std::byte> a, std::span<const std::byte> b) {
+      return !a.empty() && !b.empty() && a.data() < b.data() + b.size() && b.data() < a.data() + a.size();
+    };
+    for (std::span<const std::byte> target : {std::span<const std::byte>(state_.colour_memory), std::span<const std::byte>(state_.depth_memory)})
+      for (std::span<const std::byte> source : {state_.positions, state_.normals, state_.colours, call.indices})
+        if (overlaps(target, source)) return true;
+    return false;
   }
 
   Status resolve_range(DrawCall& call) const {
