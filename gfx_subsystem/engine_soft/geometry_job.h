@@ -1,0 +1,217 @@
+// One job of a round: vertices, assembly, clipping and set-up of its items, into its own bins.
+#pragma once
+
+#include "gfx_subsystem/engine_soft/clip.h"
+#include "gfx_subsystem/engine_soft/triangle_setup.h"
+#include "gfx_subsystem/engine_soft/vertex_stage.h"
+
+namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
+namespace {
+
+/// Vertices of the draw, by position in the draw's order, that primitives first .. first + count - 1 refer to. A fan's
+/// centre is not among them.
+struct VertexSpan {
+  std::uint32_t first, count;
+};
+inline VertexSpan vertices_of(command::Topology topology, std::uint32_t first, std::uint32_t count) {
+  switch (topology) {
+    case command::Topology::kPoints: return {first, count};
+    case command::Topology::kLines: return {2 * first, 2 * count};
+    case command::Topology::kTriangles: return {3 * first, 3 * count};
+    case command::Topology::kTriangleStrip: return {first, count + 2};
+    case command::Topology::kTriangleFan: return {first + 1, count + 1};
+  }
+  return {};
+}
+
+/// Runs primitives of one draw. Pieces are the triangles a primitive is made of (clipping makes several, and so do points
+/// and lines): a pool that is exhausted in between leaves a primitive half binned, and the job goes on at that piece.
+class DrawRun {
+ public:
+  DrawRun(const Round& round, Job& job, Worker& worker, Binner& binner, std::uint32_t draw)
+      : d_(round.draws[draw]), job_(job), worker_(worker), setup_(d_, draw, binner) {}
+
+  /// False when the pool is exhausted; job.next says how far it went.
+  bool run(const WorkItem& item) {
+    if (d_.topology == command::Topology::kTriangleFan) {
+      centre_ = d_.call.vertex(0);
+      transform_vertices(d_, 1, [&](std::uint32_t) { return centre_; }, &centre_vertex_);
+    }
+    while (job_.next.primitive < item.count)
+      if (!run_chunk(item.first + job_.next.primitive, item.count - job_.next.primitive)) return false;
+    return true;
+  }
+
+ private:
+  /// Transforms and draws as many of the `count` primitives as the vertex memory holds, at least one.
+  bool run_chunk(std::uint32_t first, std::uint32_t count) {
+    for (;; count = (count + 1) / 2) {
+      span_ = vertices_of(d_.topology, first, count);
+      if (d_.call.draw.index_format == command::IndexFormat::kNone) {
+        if (span_.count > worker_.vertex_capacity) continue;
+        base_ = d_.call.vertex(span_.first);
+        transform_range(span_.count);
+        return assemble(first, count, [this](std::uint32_t i) { return i - span_.first; });
+      }
+      std::uint32_t low, high;
+      index_range(low, high);
+      const std::uint32_t range = high - low + 1;
+      if (range <= worker_.vertex_capacity && range / 2 <= span_.count) {
+        base_ = low;
+        transform_range(range);
+        return assemble(first, count, [this](std::uint32_t i) { return d_.call.vertex(i) - base_; });
+      }
+      if (span_.count > worker_.vertex_capacity) continue;
+      transform_vertices(d_, span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); }, worker_.vertices);
+      return assemble(first, count, [this](std::uint32_t i) { return i - span_.first; });
+    }
+  }
+
+  void transform_range(std::uint32_t count) {
+    transform_vertices(d_, count, [this](std::uint32_t i) { return base_ + i; }, worker_.vertices);
+  }
+
+  void index_range(std::uint32_t& low, std::uint32_t& high) const {
+    const auto scan = [&]<class Index>(Index) {
+      Index l = static_cast<Index>(-1), h = 0;
+      const std::byte* p = d_.call.indices.data() + sizeof(Index) * std::size_t{span_.first};
+      for (std::uint32_t i = 0; i < span_.count; ++i) {
+        const Index v = load<Index>(p + sizeof(Index) * std::size_t{i});
+        l = std::min(l, v);
+        h = std::max(h, v);
+      }
+      low = l;
+      high = h;
+    };
+    if (d_.call.draw.index_format == command::IndexFormat::kU16) scan(std::uint16_t{}); else scan(std::uint32_t{});
+  }
+
+  /// `local(i)` is the place in the worker's vertices of the draw's i-th vertex.
+  template <class Local>
+  bool assemble(std::uint32_t first, std::uint32_t count, Local local) {
+    const Vertex* v = worker_.vertices;
+    const auto each = [&](auto primitive) {
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        if (!primitive(i)) return false;
+        ++job_.next.primitive;
+      }
+      return true;
+    };
+    switch (d_.topology) {
+      case command::Topology::kPoints: return each([&](std::uint32_t i) { return point(v[local(i)]); });
+      case command::Topology::kLines:
+        return each([&](std::uint32_t i) { return line(v[local(2 * i)], v[local(2 * i + 1)], 2 * i, 2 * i + 1); });
+      case command::Topology::kTriangles:
+        return each([&](std::uint32_t i) {
+          return triangle(v[local(3 * i)], v[local(3 * i + 1)], v[local(3 * i + 2)], 3 * i, 3 * i + 1, 3 * i + 2);
+        });
+      case command::Topology::kTriangleStrip:
+        return each([&](std::uint32_t i) {
+          const std::uint32_t a = i + (i & 1), b = i + 1 - (i & 1);  // every other triangle is turned to keep the winding
+          return triangle(v[local(a)], v[local(b)], v[local(i + 2)], a, b, i + 2);
+        });
+      case command::Topology::kTriangleFan:
+        return each([&](std::uint32_t i) { return triangle(centre_vertex_, v[local(i + 1)], v[local(i + 2)], 0, i + 1, i + 2); });
+    }
+    return true;
+  }
+
+  /// Corners and their positions in the draw's order; the last corner is the provoking one.
+  [[gnu::always_inline]] bool triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
+    if ((a.outcode & b.outcode & c.outcode & kViewSides) != 0) return true;
+    if (((a.outcode | b.outcode | c.outcode) & kNeedsClip) != 0) [[unlikely]] return clipped_triangle(a, b, c, ia, ib, ic);
+    bool drawn = false;
+    if (!setup_.add(a, b, c, c, true, true, drawn)) return false;
+    job_.faces_drawn += drawn;
+    return true;
+  }
+
+  [[gnu::noinline]] bool clipped_triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
+    if (((a.outcode | b.outcode | c.outcode) & kNotANumber) != 0) return true;
+    const ClippedPolygon p = clip_triangle(d_, {clip_vertex(a, ia), clip_vertex(b, ib), clip_vertex(c, ic)});
+    Vertex provoking = c;
+    bool drawn = false;
+    for (int i = 2; i < p.corners; ++i)
+      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], provoking, true, drawn)) return false;
+    job_.next.piece = 0;
+    job_.faces_drawn += drawn;
+    return true;
+  }
+
+  /// A square around the vertex. A point is drawn whole or, with its vertex outside the view volume, not at all.
+  bool point(const Vertex& v) {
+    if (v.outcode != 0) return true;
+    const std::int32_t h = d_.point_half_size;
+    Vertex corner[4] = {v, v, v, v};
+    corner[0].x = corner[3].x = v.x - h;
+    corner[1].x = corner[2].x = v.x + h;
+    corner[0].y = corner[1].y = v.y - h;
+    corner[2].y = corner[3].y = v.y + h;
+    return quad(corner, v);
+  }
+
+  /// A parallelogram, widened by half the line width to both sides along the axis in which the line is shorter.
+  bool line(const Vertex& a, const Vertex& b, std::uint32_t ia, std::uint32_t ib) {
+    if ((a.outcode & b.outcode & kViewSides) != 0) return true;
+    Vertex end[2] = {a, b};
+    if (((a.outcode | b.outcode) & kNeedsClip) != 0) {
+      if (((a.outcode | b.outcode) & kNotANumber) != 0 || !clip_segment(d_, {clip_vertex(a, ia), clip_vertex(b, ib)}, end)) return true;
+    }
+    const std::int32_t h = d_.line_half_width;
+    const bool wide = std::abs(end[1].x - end[0].x) >= std::abs(end[1].y - end[0].y);
+    Vertex corner[4] = {end[0], end[1], end[1], end[0]};
+    for (int i = 0; i < 4; ++i) (wide ? corner[i].y : corner[i].x) += i < 2 ? -h : h;
+    return quad(corner, b);
+  }
+
+  /// Two triangles; neither culled nor counted as faces.
+  bool quad(const Vertex (&corner)[4], const Vertex& provoking) {
+    bool drawn = false;
+    if (!piece(0, corner[0], corner[1], corner[2], provoking, false, drawn) || !piece(1, corner[0], corner[2], corner[3], provoking, false, drawn)) return false;
+    job_.next.piece = 0;
+    return true;
+  }
+
+  bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, bool& drawn) {
+    if (!setup_.add(a, b, c, provoking, may_cull, number >= job_.next.piece, drawn)) return false;
+    job_.next.piece = std::max(job_.next.piece, number + 1);
+    return true;
+  }
+
+  /// The vertex before projection, by the arithmetic of the vertex stage.
+  ClipVertex clip_vertex(const Vertex& v, std::uint32_t position_in_draw) const {
+    const std::uint32_t vertex = d_.call.vertex(position_in_draw);
+    const Vec3 p = fetch<Vec3>(d_.positions, d_.streams.position_stride, vertex, 0);
+    return {transform_point(d_.transform, p), {v.red, v.green, v.blue}};
+  }
+
+  const DrawSetup& d_;
+  Job& job_;
+  Worker& worker_;
+  TriangleSetup setup_;
+  VertexSpan span_{};
+  std::uint32_t base_ = 0;
+  std::uint32_t centre_ = 0;
+  Vertex centre_vertex_{};
+};
+
+inline bool bin_clear(const Round& r, Binner& binner, std::uint32_t index) {
+  const PixelRect& rect = r.clears[index].rect;
+  const TileRange range{rect.x0 / kTileSize, rect.y0 / kTileSize, (rect.x1 - 1) / kTileSize, (rect.y1 - 1) / kTileSize};
+  if (!binner.reserve(0, range)) return false;
+  binner.append(range, static_cast<std::uint32_t>(EntryKind::kClear) << kEntryKindShift | index);
+  return true;
+}
+
+void run_geometry(const Round& r, Job& job, Worker& worker) {
+  Binner binner(*r.pool, r.grid, job.lists);
+  for (; job.next.item < job.end_item; ++job.next.item, job.next.primitive = 0) {
+    const WorkItem& item = r.items[job.next.item];
+    const bool done = item.is_clear ? bin_clear(r, binner, item.index) : DrawRun(r, job, worker, binner, item.index).run(item);
+    if (!done) return;
+  }
+  job.complete = true;
+}
+
+}  // namespace
+}  // namespace usuzumi::gfx::soft::USUZUMI_KERNEL

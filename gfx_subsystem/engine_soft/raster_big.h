@@ -1,0 +1,126 @@
+// Raster of big triangles, one tile at a time: the tile's own form of the triangle, then blocks that are outside, inside or
+// crossed by an edge.
+#pragma once
+
+#include "gfx_subsystem/engine_soft/raster_small.h"
+
+namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
+namespace {
+
+/// A big triangle within one tile. Pixel offsets count from the tile's first pixel.
+struct TileTriangle {
+  std::int32_t edge[3], a[3], b[3];   // |a|, |b| < 2^23 and the edge crosses the tile, so every e in it is below 2^31
+  int edges;                          // that cross; the tile lies inside of the others
+  std::int32_t x0, y0, x1, y1;        // bounding box within the tile, inclusive
+  bool box_cuts_blocks;               // the box does not end at block borders
+  Planes planes;
+  PerspectivePlanes perspective{};
+};
+
+/// Keeps the edges that cross the box. False when the box is all outside of one of them.
+inline bool cross_edges(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
+  out.edges = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t a = t.a[i], b = t.b[i];
+    const std::int64_t e = (t.edge[i] + (a * origin.x + b * origin.y) * kSubpixelOne) >> kSubpixelBits;
+    const std::int64_t most = e + std::max(a * out.x0, a * out.x1) + std::max(b * out.y0, b * out.y1);
+    const std::int64_t least = e + std::min(a * out.x0, a * out.x1) + std::min(b * out.y0, b * out.y1);
+    if (most < 0) return false;
+    if (least >= 0) continue;
+    out.edge[out.edges] = static_cast<std::int32_t>(e);
+    out.a[out.edges] = t.a[i];
+    out.b[out.edges] = t.b[i];
+    ++out.edges;
+  }
+  return true;
+}
+
+/// Planes at the tile's first pixel. All modulo 2^64, of which the low 40 bits of the result are right.
+inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
+  const auto dx = static_cast<std::uint64_t>(std::int64_t{origin.x * kSubpixelOne + kSubpixelHalf - t.from_x});
+  const auto dy = static_cast<std::uint64_t>(std::int64_t{origin.y * kSubpixelOne + kSubpixelHalf - t.from_y});
+  const auto shifted = [](std::uint64_t v, int by) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v) >> by); };
+  std::uint32_t base[4], step_x[4], step_y[4];
+  for (int k = 0; k < 4; ++k) {
+    base[k] = static_cast<std::uint32_t>(shifted(t.plane[k] + shifted(t.plane_dx[k] * dx + t.plane_dy[k] * dy, kSubpixelBits), 16));
+    step_x[k] = static_cast<std::uint32_t>(shifted(t.plane_dx[k] + 0x8000, 16));
+    step_y[k] = static_cast<std::uint32_t>(shifted(t.plane_dy[k] + 0x8000, 16));
+  }
+  const auto low = [](const std::uint32_t* v) { return (v[2] & 0xFFFF) | v[0] << 16; };
+  out.planes = {base[3], step_x[3], step_y[3], base[1] & 0xFFFF, low(base), step_x[1] & 0xFFFF, low(step_x), step_y[1] & 0xFFFF, low(step_y)};
+  const auto shading = static_cast<Shading>(t.shading);
+  if (shading == Shading::kConstant) out.planes.high = t.constant_pixel;
+  if (shading != Shading::kPerspective) return;
+  const double px = static_cast<double>(origin.x * kSubpixelOne + kSubpixelHalf - t.from_x) / kSubpixelOne;
+  const double py = static_cast<double>(origin.y * kSubpixelOne + kSubpixelHalf - t.from_y) / kSubpixelOne;
+  for (int k = 0; k < 4; ++k) {
+    out.perspective.value[k] = static_cast<float>(t.perspective[k] + t.perspective_dx[k] * px + t.perspective_dy[k] * py);
+    out.perspective.dx[k] = static_cast<float>(t.perspective_dx[k]);
+    out.perspective.dy[k] = static_cast<float>(t.perspective_dy[k]);
+  }
+}
+
+template <Shading kShading, bool kDepth, bool kRgb565>
+std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const TileBuffers& tile) {
+  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, &t.perspective);
+  const LanePattern lanes = lane_pattern();
+  const I16 box = bits_as<I16>(splat_u(pair(t.x1 - t.x0, t.y1 - t.y0)));
+  std::uint32_t covered = 0;
+  for (std::int32_t row = t.y0 / kBlockSize; row <= t.y1 / kBlockSize; ++row) {
+    for (std::int32_t column = t.x0 / kBlockSize; column <= t.x1 / kBlockSize; ++column) {
+      const std::int32_t x = column * kBlockSize, y = row * kBlockSize;
+      bool crossed = false, out = false;
+      for (int i = 0; i < t.edges; ++i) {
+        const std::int32_t e = t.edge[i] + t.a[i] * x + t.b[i] * y, span = kBlockSize - 1;
+        out |= e + std::max(t.a[i], 0) * span + std::max(t.b[i], 0) * span < 0;
+        crossed |= e + std::min(t.a[i], 0) * span + std::min(t.b[i], 0) * span < 0;
+      }
+      if (out) continue;
+      const bool box_cuts = t.box_cuts_blocks && (x < t.x0 || y < t.y0 || x + kBlockSize - 1 > t.x1 || y + kBlockSize - 1 > t.y1);
+      const std::size_t at = block_offset(column, row);
+      for (std::int32_t part = 0; part < kParts; ++part) {
+        const std::int32_t py = y + part * kPartRows;
+        I32 mask = splat(-1);
+        if (crossed) {
+          I32 outside{};
+          for (int i = 0; i < t.edges; ++i) outside |= (lanes.x + x) * t.a[i] + (lanes.y + py) * t.b[i] + t.edge[i];
+          mask = ~(outside >> 31);
+        }
+        if (box_cuts) {
+          const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(x - t.x0, py - t.y0)));
+          mask &= bits_as<I32>((xy >= 0) & (xy <= box)) == -1;
+        }
+        const std::uint32_t bits = sign_bits(mask);
+        if (bits == 0) continue;
+        covered += static_cast<std::uint32_t>(std::popcount(bits));
+        shader.part(mask, x, py, tile, at + static_cast<std::size_t>(part * kLanes));
+      }
+    }
+  }
+  return covered;
+}
+
+/// Returns the pixels covered.
+template <bool kRgb565>
+std::uint32_t raster_big(const DrawSetup& d, const BigTriangle& t, TileOrigin origin, const TileBuffers& tile) {
+  TileTriangle local;
+  local.x0 = std::max(t.x - origin.x, 0);
+  local.y0 = std::max(t.y - origin.y, 0);
+  local.x1 = std::min(t.last_x - origin.x, kTileSize - 1);
+  local.y1 = std::min(t.last_y - origin.y, kTileSize - 1);
+  local.box_cuts_blocks = ((local.x0 | local.y0 | (local.x1 + 1) | (local.y1 + 1)) & (kBlockSize - 1)) != 0;
+  if (!cross_edges(t, origin, local)) return 0;
+  derive_planes(t, origin, local);
+  const auto raster = [&](auto depth) {
+    constexpr bool kDepth = decltype(depth)::value;
+    switch (static_cast<Shading>(t.shading)) {
+      case Shading::kConstant: return raster_blocks<Shading::kConstant, kDepth, kRgb565>(d, local, tile);
+      case Shading::kAffine: return raster_blocks<Shading::kAffine, kDepth, kRgb565>(d, local, tile);
+      default: return raster_blocks<Shading::kPerspective, kDepth, kRgb565>(d, local, tile);
+    }
+  };
+  return d.depth_test ? raster(std::true_type{}) : raster(std::false_type{});
+}
+
+}  // namespace
+}  // namespace usuzumi::gfx::soft::USUZUMI_KERNEL

@@ -1,0 +1,58 @@
+// Raster of small triangles: the few 4x4 blocks of the bounding box, all three edge functions at once, no hierarchy.
+#pragma once
+
+#include <bit>
+
+#include "gfx_subsystem/engine_soft/shader.h"
+
+namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
+namespace {
+
+/// Position of a tile's first pixel on the target.
+struct TileOrigin {
+  std::int32_t x, y;
+};
+
+[[gnu::always_inline]] inline std::size_t block_offset(std::int32_t column, std::int32_t row) {
+  return static_cast<std::size_t>(row * kBlocksPerRow + column) * kBlockPixels;
+}
+
+/// All ones where both 16-bit halves lie in 0 .. last.
+[[gnu::always_inline]] inline I32 inside_box(I16 xy, std::int32_t last_x, std::int32_t last_y) {
+  const I16 last = bits_as<I16>(splat_u(pair(last_x, last_y)));
+  return bits_as<I32>((xy >= 0) & (xy <= last)) == -1;
+}
+
+/// Returns the pixels covered.
+template <Shading kShading, bool kDepth, bool kRgb565>
+std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin, const TileBuffers& tile) {
+  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
+  const bool clipped = (t.draw & kClippedBox) != 0;
+  const std::int32_t x = t.x - origin.x, y = t.y - origin.y;  // of the record's origin pixel within the tile
+  const std::int32_t first_column = std::max(x, 0) / kBlockSize, last_column = std::min(x + t.last_x, kTileSize - 1) / kBlockSize;
+  const std::int32_t first_row = std::max(y, 0) / kBlockSize, last_row = std::min(y + t.last_y, kTileSize - 1) / kBlockSize;
+  const LanePattern lanes = lane_pattern();
+  const I16 step0 = bits_as<I16>(splat_u(pair(t.step[0][0], t.step[0][1])));
+  const I16 step1 = bits_as<I16>(splat_u(pair(t.step[1][0], t.step[1][1])));
+  const I16 step2 = -(step0 + step1);
+  std::uint32_t covered = 0;
+  for (std::int32_t row = first_row; row <= last_row; ++row) {
+    for (std::int32_t column = first_column; column <= last_column; ++column) {
+      for (std::int32_t part = 0; part < kParts; ++part) {
+        const std::int32_t px = column * kBlockSize - x, py = row * kBlockSize + part * kPartRows - y;
+        const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(px, py)));
+        const I32 outside = (dot_pairs(step0, xy) + t.edge[0]) | (dot_pairs(step1, xy) + t.edge[1]) | (dot_pairs(step2, xy) + t.edge[2]);
+        I32 mask = ~(outside >> 31);
+        if (clipped) mask &= inside_box(xy, t.last_x, t.last_y);
+        const std::uint32_t bits = sign_bits(mask);
+        if (bits == 0) continue;
+        covered += static_cast<std::uint32_t>(std::popcount(bits));
+        shader.part(mask, px, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+      }
+    }
+  }
+  return covered;
+}
+
+}  // namespace
+}  // namespace usuzumi::gfx::soft::USUZUMI_KERNEL

@@ -1,0 +1,281 @@
+#include "gfx_subsystem/engine_soft/soft_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace usuzumi::gfx {
+
+using namespace soft;
+
+namespace {
+
+constexpr std::size_t kCacheLine = 64;
+/// Primitives after which a job is closed. Small enough to share out among threads and for a job's vertices to stay in
+/// the nearer caches; arbitrary otherwise.
+constexpr std::uint32_t kPrimitivesPerJob = 8192;
+constexpr std::uint32_t kMaxJobs = 64;
+
+TileGrid grid_of(std::uint32_t width, std::uint32_t height) {
+  const auto tiles = [](std::uint32_t pixels) { return (static_cast<std::int32_t>(pixels) + kTileSize - 1) / kTileSize; };
+  return {tiles(width), tiles(height)};
+}
+
+/// A pool in which every triangle fits: its record, a fresh block in every tile.
+std::uint32_t minimum_slots(std::uint32_t tiles) { return tiles + sizeof(BigTriangle) / kSlotBytes; }
+
+/// The tables' sizes for a given amount of memory.
+struct Layout {
+  std::uint32_t workers, vertices, draws, clears, items, jobs;
+
+  Layout(std::size_t bytes, std::uint32_t tiles, std::uint32_t threads) {
+    const auto share = [bytes](std::size_t parts, std::size_t element, std::size_t least, std::size_t most) {
+      return static_cast<std::uint32_t>(std::clamp(bytes / parts / element, least, most));
+    };
+    workers = share(4, 2 * kTilePixels * sizeof(std::uint32_t), 1, threads);
+    vertices = share(std::size_t{8} * workers, sizeof(Vertex), kMinVertexCapacity, 8192);
+    draws = share(64, sizeof(DrawSetup), 1, kMaxDraws);
+    clears = share(256, sizeof(ClearOperation), 1, 64);
+    items = share(64, sizeof(WorkItem), 2, 1024);
+    jobs = share(16, sizeof(Job) + tiles * sizeof(TileList), 1, kMaxJobs);
+  }
+};
+
+std::uint32_t primitive_count(command::Topology topology, std::uint32_t vertices) {
+  switch (topology) {
+    case command::Topology::kPoints: return vertices;
+    case command::Topology::kLines: return vertices / 2;
+    default: return face_count(topology, vertices);
+  }
+}
+
+std::uint32_t depth_value(command::DepthFormat format, float depth) {
+  const double most = format == command::DepthFormat::kUnorm16 ? 65535.0 : 16777215.0;
+  return static_cast<std::uint32_t>(std::floor(static_cast<double>(depth) * most + 0.5));
+}
+
+const Kernels* best_kernels() {
+  const Kernels* best = nullptr;
+  for (const Kernels* k : all_kernels())
+    if (k->supported()) best = k;
+  return best;
+}
+
+}  // namespace
+
+SoftEngine::SoftEngine(const Config& config)
+    : kernels_(config.kernels != nullptr ? config.kernels : best_kernels()), work_memory_(config.work_memory), runner_(config.runner) {}
+
+std::size_t SoftEngine::minimum_work_bytes(std::uint32_t width, std::uint32_t height) {
+  const std::uint32_t tiles = grid_of(width, height).count();
+  // The tables' least sizes; their shares of a memory this small are no larger than what the pool leaves.
+  const std::size_t tables = kMinVertexCapacity * sizeof(Vertex) + sizeof(DrawSetup) + sizeof(ClearOperation) + 2 * sizeof(WorkItem) +
+                             sizeof(Job) + tiles * sizeof(TileList) + 7 * kCacheLine;
+  const std::size_t buffers = 2 * kTilePixels * sizeof(std::uint32_t);
+  // Shares: 1/8 vertices, 1/64 draws, 1/256 clears, 1/64 items, 1/16 jobs: less than a quarter; so 4/3 of the rest is enough.
+  return (tables + buffers + minimum_slots(tiles) * kSlotBytes) * 4 / 3 + kCacheLine;
+}
+
+ExecutionReport SoftEngine::do_execute(std::span<const std::uint32_t> list, BusMemory& memory) {
+  counters_ = {};
+  round_ = {};
+  draw_count_ = clear_count_ = item_count_ = job_count_ = 0;
+  ExecutionReport report;
+  report.status = decode(list, memory, *this, counters_.command_words);
+  finish_round();
+  for (Worker& w : workers_) {
+    counters_.pixels_tested += w.pixels_tested;
+    w.pixels_tested = 0;
+  }
+  report.counters = counters_;
+  return report;
+}
+
+Status SoftEngine::bind_target(const EngineState& s) {
+  RoundTarget t;
+  t.colour = s.colour_memory.data();
+  t.colour_stride = s.colour_target.stride_bytes;
+  t.width = static_cast<std::int32_t>(s.colour_target.width);
+  t.height = static_cast<std::int32_t>(s.colour_target.height);
+  t.rgb565 = s.colour_target.format == command::PixelFormat::kRgb565;
+  t.depth = s.depth_memory.data();
+  t.depth_stride = s.depth_target.stride_bytes;
+  t.depth16 = s.depth_target.format == command::DepthFormat::kUnorm16;
+  if (t == round_.target) return ok_status();
+  finish_round();
+  round_ = {};
+  round_.grid = grid_of(s.colour_target.width, s.colour_target.height);
+  if (!lay_out_memory()) {
+    round_ = {};
+    return {StatusCode::kResourceExhausted, "the engine's working memory is too small for this target; see minimum_work_bytes", 0};
+  }
+  round_.target = t;
+  return ok_status();
+}
+
+bool SoftEngine::lay_out_memory() {
+  const std::uint32_t tiles = round_.grid.count();
+  const std::uint32_t threads = runner_ == nullptr ? 1 : std::clamp(runner_->thread_count(), 1u, kMaxWorkers);
+  const Layout layout(work_memory_.size(), tiles, threads);
+  Arena arena(work_memory_);
+  worker_count_ = layout.workers;
+  for (std::uint32_t w = 0; w < worker_count_; ++w) {
+    workers_[w].colour = arena.allocate<std::uint32_t>(kTilePixels, kCacheLine).data();
+    workers_[w].depth = arena.allocate<std::uint32_t>(kTilePixels, kCacheLine).data();
+    workers_[w].vertices = arena.allocate<Vertex>(layout.vertices, kCacheLine).data();
+    workers_[w].vertex_capacity = layout.vertices;
+  }
+  draws_ = arena.allocate<DrawSetup>(layout.draws);
+  clears_ = arena.allocate<ClearOperation>(layout.clears);
+  items_ = arena.allocate<WorkItem>(layout.items);
+  jobs_ = arena.allocate<Job>(layout.jobs);
+  lists_ = arena.allocate<TileList>(std::size_t{layout.jobs} * tiles);
+  if (lists_.empty()) return false;
+  const std::size_t padding = kCacheLine;
+  if (arena.available() < minimum_slots(tiles) * std::size_t{kSlotBytes} + padding) return false;
+  const auto slots = static_cast<std::uint32_t>(std::min<std::size_t>((arena.available() - padding) / kSlotBytes, kEntrySlotMask));
+  pool_.reset(arena.allocate<Slot>(slots, kCacheLine).data(), slots);
+  round_.draws = draws_.data();
+  round_.clears = clears_.data();
+  round_.items = items_.data();
+  round_.jobs = jobs_.data();
+  round_.pool = &pool_;
+  for (std::uint32_t j = 0; j < layout.jobs; ++j) jobs_[j].lists = &lists_[std::size_t{j} * tiles];
+  return true;
+}
+
+Status SoftEngine::clear(const EngineState& s, const command::Clear& c) {
+  if (Status status = bind_target(s); !status.ok()) return status;
+  counters_.pixels_cleared += std::uint64_t{s.scissor.width} * s.scissor.height;
+  if (c.planes == 0 || s.scissor.width == 0 || s.scissor.height == 0) return ok_status();
+  if (clear_count_ == clears_.size() || item_count_ == items_.size()) finish_round();
+  ClearOperation& op = clears_[clear_count_];
+  op.rect = {static_cast<std::int32_t>(s.scissor.x), static_cast<std::int32_t>(s.scissor.y),
+             static_cast<std::int32_t>(s.scissor.x + s.scissor.width), static_cast<std::int32_t>(s.scissor.y + s.scissor.height)};
+  op.colour = (c.planes & command::kClearColour) != 0;
+  op.depth = (c.planes & command::kClearDepth) != 0;
+  op.pixel = pack_pixel(s.colour_target.format, c.colour);
+  op.depth_value = op.depth ? depth_value(s.depth_target.format, c.depth) : 0;
+  round_.uses_depth |= op.depth;
+  append_item({true, clear_count_++, 0, 0});
+  return ok_status();
+}
+
+Status SoftEngine::draw(const EngineState& s, const DrawCall& call) {
+  const std::uint32_t primitives = primitive_count(call.draw.topology, call.draw.count);
+  counters_.vertices_transformed += std::uint64_t{call.max_vertex} - call.min_vertex + 1;
+  counters_.primitives_in += primitives;
+  counters_.faces_in += face_count(call.draw.topology, call.draw.count);
+  if (Status status = bind_target(s); !status.ok()) return status;
+  if (primitives == 0) return ok_status();
+  if (draw_count_ == draws_.size()) finish_round();
+  draws_[draw_count_] = prepare_draw(s, call);
+  round_.uses_depth |= s.raster.depth_test != 0;
+  add_draw_items(draw_count_++, primitives);
+  return ok_status();
+}
+
+void SoftEngine::add_draw_items(std::uint32_t draw, std::uint32_t primitives) {
+  for (std::uint32_t first = 0; first < primitives;) {
+    if (item_count_ == items_.size() || (job_count_ == jobs_.size() && open_job_primitives_ >= kPrimitivesPerJob)) {
+      // The tables begin anew; the draw goes on in the next round.
+      const DrawSetup setup = draws_[draw];
+      const bool uses_depth = round_.uses_depth;
+      finish_round();
+      round_.uses_depth = uses_depth;
+      draws_[0] = setup;
+      draw = 0;
+      draw_count_ = 1;
+    }
+    const std::uint32_t room = job_count_ == 0 || open_job_primitives_ >= kPrimitivesPerJob ? kPrimitivesPerJob : kPrimitivesPerJob - open_job_primitives_;
+    const std::uint32_t count = std::min(primitives - first, room);
+    append_item({false, draw, first, count});
+    first += count;
+  }
+}
+
+/// The item table has room.
+void SoftEngine::append_item(const WorkItem& item) {
+  items_[item_count_] = item;
+  const bool open = job_count_ > 0 && (open_job_primitives_ < kPrimitivesPerJob || job_count_ == jobs_.size());
+  if (!open) {
+    Job& job = jobs_[job_count_++];
+    job = {{item_count_, 0, 0}, item_count_, false, 0, job.lists};
+    open_job_primitives_ = 0;
+  }
+  ++item_count_;
+  jobs_[job_count_ - 1].end_item = item_count_;
+  open_job_primitives_ += item.count;
+}
+
+void SoftEngine::finish_round() {
+  std::uint32_t first_left = 0;  // jobs before are done
+  bool alone = false;            // only the first job left may use the pool
+  while (first_left < job_count_) {
+    round_.jobs = &jobs_[first_left];
+    phase_jobs_ = alone ? 1 : job_count_ - first_left;
+    JobPosition start[kMaxJobs];
+    for (std::uint32_t j = 0; j < phase_jobs_; ++j) start[j] = round_.jobs[j].next;
+    const std::uint32_t complete = run_geometry();
+    // The first incomplete job has binned the head of its work. What later ones have binned is dropped and done again.
+    const std::uint32_t usable = std::min(complete + 1, phase_jobs_);
+    for (std::uint32_t j = usable; j < phase_jobs_; ++j) round_.jobs[j].next = start[j];
+    alone = complete == 0 && round_.jobs[0].next == start[0];
+    for (std::uint32_t j = 0; j < usable; ++j) counters_.faces_drawn += round_.jobs[j].faces_drawn;
+    run_tiles(usable);
+    first_left += complete;
+  }
+  round_.jobs = jobs_.data();
+  round_.uses_depth = false;
+  draw_count_ = clear_count_ = item_count_ = job_count_ = 0;
+  open_job_primitives_ = 0;
+}
+
+/// Runs the phase's jobs; how many of them, from the first on, are complete.
+std::uint32_t SoftEngine::run_geometry() {
+  pool_.reuse();
+  next_part_.store(0, std::memory_order_relaxed);
+  exhausted_.store(false, std::memory_order_relaxed);
+  for (std::uint32_t j = 0; j < phase_jobs_; ++j) {
+    round_.jobs[j].complete = false;
+    round_.jobs[j].faces_drawn = 0;
+  }
+  if (worker_count_ > 1 && phase_jobs_ > 1)
+    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { static_cast<SoftEngine*>(engine)->run_geometry_worker(w); }, this);
+  else
+    run_geometry_worker(0);
+  std::uint32_t complete = 0;
+  while (complete < phase_jobs_ && round_.jobs[complete].complete) ++complete;
+  return complete;
+}
+
+void SoftEngine::run_geometry_worker(std::uint32_t worker) {
+  const std::uint32_t tiles = round_.grid.count();
+  while (!exhausted_.load(std::memory_order_relaxed)) {
+    const std::uint32_t j = next_part_.fetch_add(1, std::memory_order_relaxed);
+    if (j >= phase_jobs_) return;
+    Job& job = round_.jobs[j];
+    std::fill_n(job.lists, tiles, TileList{});
+    kernels_->run_geometry(round_, job, workers_[worker]);
+    if (!job.complete) exhausted_.store(true, std::memory_order_relaxed);
+  }
+}
+
+void SoftEngine::run_tiles(std::uint32_t jobs) {
+  next_part_.store(0, std::memory_order_relaxed);
+  phase_jobs_ = jobs;
+  if (worker_count_ > 1)
+    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { static_cast<SoftEngine*>(engine)->run_tile_worker(w); }, this);
+  else
+    run_tile_worker(0);
+}
+
+void SoftEngine::run_tile_worker(std::uint32_t worker) {
+  const std::uint32_t tiles = round_.grid.count();
+  for (;;) {
+    const std::uint32_t tile = next_part_.fetch_add(1, std::memory_order_relaxed);
+    if (tile >= tiles) return;
+    kernels_->run_tile(round_, workers_[worker], tile, phase_jobs_);
+  }
+}
+
+}  // namespace usuzumi::gfx
