@@ -1,7 +1,6 @@
 #include "sim/pack/gltf_accessor.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cstring>

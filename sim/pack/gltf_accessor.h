@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tinygltf {
-class Model;
-}
+#include "sim/pack/tinygltf.h"
 
 namespace usuzumi::sim {
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +20,7 @@
 #include "sim/pack/importers.h"
 #include "sim/pack/tag_values.h"
 #include "sim/pack/text.h"
+#include "sim/pack/tinygltf.h"
 #include "sim/pack/transform.h"
 #include "sim/pack/triangles.h"
 
@@ -65,6 +65,7 @@ tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   tinygltf::TinyGLTF loader;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   BufferFolder buffers{folder, &file.buffer_files};
+  loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
   loader.SetImageLoader(leave_image, nullptr);
   loader.SetFsCallbacks({buffer_exists, unexpanded, read_buffer, nullptr, &buffers});
   tinygltf::Model model;
@@ -80,20 +81,12 @@ tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   return model;
 }
 
-std::vector<std::pair<std::string, TagValue>> properties(const tinygltf::Value& extras) {
+/// Extras as they stand in the file; tinygltf's own values of them drop null and empty lists.
+std::vector<std::pair<std::string, TagValue>> properties(const std::string& extras_json) {
   std::vector<std::pair<std::string, TagValue>> all;
-  if (!extras.IsObject()) return all;
-  for (const std::string& key : extras.Keys()) {
-    const tinygltf::Value& v = extras.Get(key);
-    TagValue value;
-    if (v.IsBool())
-      value.truth = v.Get<bool>();
-    else if (v.IsNumber())
-      value.number = v.GetNumberAsDouble();
-    else if (v.IsString())
-      value.text = v.Get<std::string>();
-    all.emplace_back(key, value);
-  }
+  const nlohmann::json extras = nlohmann::json::parse(extras_json, nullptr, false);
+  if (!extras.is_object()) return all;
+  for (const auto& [key, value] : extras.items()) all.emplace_back(key, tag_value_of(value));
   return all;
 }
 
@@ -116,11 +109,11 @@ class GltfImporter {
 
   void read_extras() {
     for (std::size_t i = 0; i < gltf_.meshes.size(); ++i)
-      mesh_tags_.push_back(tags_from_extras(properties(gltf_.meshes[i].extras), file_, described("mesh", i, gltf_.meshes[i].name), model_.notes));
+      mesh_tags_.push_back(tags_from_extras(properties(gltf_.meshes[i].extras_json_string), file_, described("mesh", i, gltf_.meshes[i].name), model_.notes));
     for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) {
       const tinygltf::Node& node = gltf_.nodes[i];
       const std::string whose = described("node", i, node.name);
-      node_tags_.push_back(tags_from_extras(properties(node.extras), file_, whose, model_.notes));
+      node_tags_.push_back(tags_from_extras(properties(node.extras_json_string), file_, whose, model_.notes));
       if (node_tags_.back().any() && node.mesh < 0)
         model_.notes.push_back(fmt::format("{}: {} has thinning properties but no mesh, so they do nothing; give them to the nodes with meshes", file_, whose));
     }
