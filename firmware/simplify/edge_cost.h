@@ -9,8 +9,11 @@
 
 namespace usuzumi::firmware {
 
-// A pivot below this part of the weight is rounding noise of single precision (about 2^-20), not shape.
-inline constexpr float kLeastPivot = 1e-6f;
+// In a flat or straight neighbourhood the quadric is least along a whole plane or line, and rounding would choose the
+// place. A faint pull towards the edge's middle chooses instead; its strength relative to the quadric's weight. Solving
+// once more with the pull towards the first solution takes it out again where the quadric does have a minimum (iterated
+// Tikhonov regularisation). Chosen by measuring.
+inline constexpr float kPull = 1e-3f;
 
 // A minimum further from the edge's middle than this many edge lengths (squared) is not believed: there the quadric is
 // nearly flat, and the planes it sums are not those the vertex would move among. Arbitrary; the flip test would refuse
@@ -25,7 +28,8 @@ struct EdgeCost {
 
 inline float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 
-/// The edge from `a` to `b`. Where the quadric has no trustworthy minimum: the best of both ends and the middle.
+/// The edge from `a` to `b`. Where the quadric has no trustworthy minimum: the best of both ends and the middle, the
+/// middle on a tie.
 inline EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement) {
   const Vec3 edge = surface.positions[b] - surface.positions[a];
   const Vec3 middle = edge * 0.5f;
@@ -33,12 +37,13 @@ inline EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t
   result.quadric = sum_with_neighbour(surface.vertices[a].quadric, surface.vertices[b].quadric, edge);
   const Quadric& q = result.quadric;
   if (placement == Placement::kOptimal) {
-    Vec3 minimum;
-    if (minimise(q, kLeastPivot, minimum)) {
+    const PulledSystem system(q, kPull * weight_of(q));
+    if (system.usable()) {
+      const Vec3 minimum = system.minimum(q, system.minimum(q, middle));
       const Vec3 away = minimum - middle;
       if (dot(away, away) <= kFarthestMinimumSquared * dot(edge, edge)) {
         result.offset = minimum;
-        result.cost = at_least_zero(q.c + dot(q.b, minimum));
+        result.cost = at_least_zero(evaluate(q, minimum));
         return result;
       }
     }

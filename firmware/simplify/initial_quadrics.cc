@@ -7,7 +7,6 @@ namespace {
 
 // Weights relative to a face's, which is twice its area. The constraint planes' are relative to the edge's squared
 // length. Chosen by measuring (tests/bench/simplify).
-constexpr float kPointWeight = 1e-5f;
 constexpr float kBorderWeight = 2.0f;
 constexpr float kAttributeBorderWeight = 0.5f;
 
@@ -28,11 +27,8 @@ void add_face_planes(Surface& s) {
     const Vec3 normal = face_normal(s, face);
     const float twice_area = length(normal);
     if (!(twice_area > 0)) continue;  // no plane
-    for (Corner c = face * 4; c < face * 4 + 3; ++c) {
-      Quadric& q = s.vertices[s.vertex_at(c)].quadric;
-      add_plane_through_owner(q, normal, 1.0f / twice_area);
-      add_point_at_owner(q, kPointWeight * twice_area);
-    }
+    for (Corner c = face * 4; c < face * 4 + 3; ++c)
+      add_plane_through_owner(s.vertices[s.vertex_at(c)].quadric, normal, 1.0f / twice_area);
   }
 }
 

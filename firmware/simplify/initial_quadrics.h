@@ -6,8 +6,7 @@
 namespace usuzumi::firmware {
 
 /// Sets every vertex's quadric: the planes of its faces weighted by area, constraint planes at right angles to the faces
-/// along open borders (and other edges that have not two faces) and along attribute borders, and a faint pull towards
-/// the vertex itself. Chooses every edge's representative half-edge.
+/// along open borders (and other edges that have not two faces) and along attribute borders. Chooses every edge's representative half-edge.
 void set_initial_quadrics(Surface& surface);
 
 }  // namespace usuzumi::firmware

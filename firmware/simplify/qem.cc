@@ -40,6 +40,22 @@ constexpr std::size_t links_and_queue_bytes(std::uint32_t vertex_count, std::uin
 // of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
 constexpr float kWorkingExtent = 4096;
 
+// Planes that touch a curved surface meet outside it, but not as far outside as evens out the chords of the faces between:
+// simplified to the quadrics' minima, a ball shrinks. Moving along the mean normal until the collapse keeps the volume
+// (Lindstrom & Turk, "Fast and Memory Efficient Polygonal Simplification", 1998) takes that bias out and lowers the
+// root-mean-square error by about a fifth. No further than this many times the quadric's own error. Chosen by measuring.
+constexpr float kMostShift = 2;
+
+Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
+  const float squared = dot(n.area_normal, n.area_normal);
+  const float weight = weight_of(cost.quadric);
+  if (!(squared > 0) || !(weight > 0)) return {};
+  const Vec3 shift = n.area_normal * ((n.swept - dot(n.area_normal, cost.offset)) / squared);
+  const float length_squared = dot(shift, shift);
+  const float most = kMostShift * kMostShift * cost.cost / weight;
+  return length_squared > most ? shift * std::sqrt(most / length_squared) : shift;
+}
+
 class QemSimplifier {
  public:
   QemSimplifier(WorkingMesh& mesh, const SimplifyOptions& options)
@@ -199,8 +215,10 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   n.b = surface_.vertex_at(next_in_face(edge));
   if (!rules_.keeps_topology(n)) return false;
   const Vec3 a = surface_.positions[n.a];
-  const Vec3 position = a + cost.offset;
-  if (rules_.turns_a_face(n, position)) return false;
+  Vec3 position = a + cost.offset;
+  const Vec3 volume_kept = position + (options_.placement == Placement::kOptimal ? shift_to_keep_volume(n, cost) : Vec3{});
+  if (!(volume_kept == position) && !rules_.turns_a_face(n, volume_kept)) position = volume_kept;
+  else if (rules_.turns_a_face(n, position)) return false;
 
   const float t = attributes_.any() ? position_along(surface_.positions[n.b] - a, cost.offset) : 0.5f;
   const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, t);

@@ -40,13 +40,6 @@ inline void add_plane_through_owner(Quadric& q, Vec3 weighted_normal, float scal
   q.zz += s.z * weighted_normal.z;
 }
 
-/// Adds weight * |x|^2: pulls towards the owner, a little, so that a flat or straight neighbourhood has a minimum too.
-inline void add_point_at_owner(Quadric& q, float weight) {
-  q.xx += weight;
-  q.yy += weight;
-  q.zz += weight;
-}
-
 /// The same quadric about an owner that lies at `to` in the old frame.
 inline Quadric moved_to(const Quadric& q, Vec3 to) {
   const Vec3 t = multiply(q, to);
@@ -64,28 +57,39 @@ inline Quadric sum_with_neighbour(const Quadric& q, const Quadric& r, Vec3 offse
           q.b + b,     q.c + (r.c - dot(offset, r.b + b))};
 }
 
-/// Where Q is least, by an L D L' factorisation (A is positive semidefinite: no pivoting needed). False where a pivot
-/// is below `relative_pivot` of the weight: then A says too little about at least one direction.
-inline bool minimise(const Quadric& q, float relative_pivot, Vec3& x) {
-  const float least = relative_pivot * weight_of(q);
-  if (!(q.xx > least)) return false;
-  const float r0 = 1.0f / q.xx;
-  const float l10 = q.xy * r0;
-  const float l20 = q.xz * r0;
-  const float d1 = q.yy - l10 * q.xy;
-  if (!(d1 > least)) return false;
-  const float r1 = 1.0f / d1;
-  const float e21 = q.yz - l10 * q.xz;
-  const float l21 = e21 * r1;
-  const float d2 = (q.zz - l20 * q.xz) - l21 * e21;
-  if (!(d2 > least)) return false;
-  const float y0 = -q.b.x;
-  const float y1 = -q.b.y - l10 * y0;
-  const float y2 = (-q.b.z - l20 * y0) - l21 * y1;
-  x.z = y2 / d2;
-  x.y = y1 * r1 - l21 * x.z;
-  x.x = (y0 * r0 - l10 * x.y) - l20 * x.z;
-  return true;
-}
+/// A + pull I = L D L' (A is positive semidefinite: no pivoting needed), to solve for places where Q is least.
+class PulledSystem {
+ public:
+  /// `pull` > 0 has the units of A. usable() is false where a pivot is not above zero: A is zero, or not finite.
+  PulledSystem(const Quadric& q, float pull) : pull_(pull) {
+    const float d0 = q.xx + pull;
+    r0_ = 1.0f / d0;
+    l10_ = q.xy * r0_;
+    l20_ = q.xz * r0_;
+    const float d1 = (q.yy + pull) - l10_ * q.xy;
+    const float e21 = q.yz - l10_ * q.xz;
+    r1_ = 1.0f / d1;
+    l21_ = e21 * r1_;
+    const float d2 = ((q.zz + pull) - l20_ * q.xz) - l21_ * e21;
+    r2_ = 1.0f / d2;
+    usable_ = d0 > 0 && d1 > 0 && d2 > 0 && r0_ > 0 && r1_ > 0 && r2_ > 0;
+  }
+
+  bool usable() const { return usable_; }
+
+  /// Where Q(x) + pull |x - towards|^2 is least.
+  Vec3 minimum(const Quadric& q, Vec3 towards) const {
+    const float y0 = pull_ * towards.x - q.b.x;
+    const float y1 = (pull_ * towards.y - q.b.y) - l10_ * y0;
+    const float y2 = ((pull_ * towards.z - q.b.z) - l20_ * y0) - l21_ * y1;
+    const float z = y2 * r2_;
+    const float y = y1 * r1_ - l21_ * z;
+    return {(y0 * r0_ - l10_ * y) - l20_ * z, y, z};
+  }
+
+ private:
+  float pull_, r0_, r1_, r2_, l10_, l20_, l21_;
+  bool usable_;
+};
 
 }  // namespace usuzumi::firmware

@@ -22,7 +22,8 @@ struct WorkingMesh {
 };
 
 enum class Placement : std::uint8_t {
-  kOptimal,   // where the quadric is least; best of both ends and the middle where that is ill-conditioned
+  kOptimal,   // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most); best
+              // of both ends and the middle where the quadric is ill-conditioned
   kMidpoint,  // the middle of the two ends (JP2015-22462A claim 5)
 };
 
