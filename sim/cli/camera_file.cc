@@ -1,0 +1,89 @@
+#include "sim/cli/camera_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "firmware/scene/trigonometry.h"
+#include "sim/common/error.h"
+#include "sim/common/files.h"
+
+namespace usuzumi::sim {
+namespace {
+
+using nlohmann::json;
+
+class FrameReader {
+ public:
+  FrameReader(const std::string& where, const json& object) : where_(where), object_(object) {
+    if (!object.is_object()) fail("must be an object with \"eye\" and \"target\"");
+    for (const auto& [key, value] : object.items())
+      if (std::find(std::begin(kKeys), std::end(kKeys), key) == std::end(kKeys))
+        fail(fmt::format("has \"{}\", which is none of eye, target, up, fov_y_deg, near, far", key));
+  }
+
+  firmware::Camera read(const firmware::Bounds& bounds) const {
+    firmware::Camera camera;
+    camera.eye = vector("eye", nullptr);
+    camera.target = vector("target", nullptr);
+    camera.up = vector("up", &camera.up);
+    const double degrees = number("fov_y_deg", 40);
+    camera.fov_y_rad = static_cast<float>(degrees * firmware::kPi / 180);
+    const float radius = std::max(bounds.radius(), 1e-6f);
+    const float distance = length(camera.eye - bounds.centre());
+    camera.near_distance = static_cast<float>(number("near", double{std::max(distance - radius * 1.01f, radius * 0.01f)}));
+    camera.far_distance = static_cast<float>(number("far", double{distance + radius * 1.01f}));
+    const Status status = check(camera);
+    if (!status.ok()) fail(status.message);
+    return camera;
+  }
+
+ private:
+  static constexpr const char* kKeys[] = {"eye", "target", "up", "fov_y_deg", "near", "far"};
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(ExitCode::kBadInput, where_ + " " + what); }
+
+  Vec3 vector(const char* key, const Vec3* otherwise) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) {
+      if (otherwise != nullptr) return *otherwise;
+      fail(fmt::format("has no \"{}\": give three numbers", key));
+    }
+    const bool three = found->is_array() && found->size() == 3 && (*found)[0].is_number() && (*found)[1].is_number() && (*found)[2].is_number();
+    if (!three) fail(fmt::format("\"{}\" must be three numbers", key));
+    return {(*found)[0].get<float>(), (*found)[1].get<float>(), (*found)[2].get<float>()};
+  }
+
+  double number(const char* key, double otherwise) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) return otherwise;
+    if (!found->is_number()) fail(fmt::format("\"{}\" must be a number", key));
+    return found->get<double>();
+  }
+
+  std::string where_;
+  const json& object_;
+};
+
+}  // namespace
+
+std::vector<firmware::Camera> read_camera_file(const std::filesystem::path& path, const firmware::Bounds& bounds) {
+  const auto bytes = read_file(path, std::uint64_t{64} << 20);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const json file = json::parse(text, text + bytes.size(), nullptr, false);
+  if (file.is_discarded()) throw Error(ExitCode::kBadInput, fmt::format("{}: not JSON; see `usuzumi run --help` for a camera file", path.string()));
+  std::vector<firmware::Camera> cameras;
+  if (!file.is_object() || !file.contains("frames")) {
+    cameras.push_back(FrameReader(path.string() + ": the camera", file).read(bounds));
+    return cameras;
+  }
+  const json& frames = file["frames"];
+  if (!frames.is_array() || frames.empty()) throw Error(ExitCode::kBadInput, fmt::format("{}: \"frames\" must be a list of cameras", path.string()));
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    cameras.push_back(FrameReader(fmt::format("{}: frame {}", path.string(), i), frames[i]).read(bounds));
+  return cameras;
+}
+
+}  // namespace usuzumi::sim

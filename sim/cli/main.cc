@@ -1,0 +1,37 @@
+// The usuzumi command: pack, inspect, thin, run, compare.
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "sim/cli/compare_command.h"
+#include "sim/cli/inspect_command.h"
+#include "sim/cli/pack_command.h"
+#include "sim/cli/run_command.h"
+#include "sim/cli/thin_command.h"
+#include "sim/common/error.h"
+
+int main(int argc, char** argv) {
+  using namespace usuzumi::sim;
+  int exit_code = exit_status(ExitCode::kOk);
+  CLI::App app("Usuzumi: an embedded drawing device for instrument clusters, simulated on the desk", "usuzumi");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "usuzumi " USUZUMI_VERSION);
+  app.footer(std::string("Example: usuzumi pack car.glb -o car.rom && usuzumi run car.rom --out pictures\n\n") + kExitCodesHelp);
+  add_pack_command(app, exit_code);
+  add_inspect_command(app, exit_code);
+  add_thin_command(app, exit_code);
+  add_run_command(app, exit_code);
+  add_compare_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForAllHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForVersion& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    fprintf(stderr, "usuzumi: %s; see usuzumi --help\n", e.what());
+    return exit_status(ExitCode::kUsage);
+  }
+  return exit_code;
+}

@@ -1,0 +1,197 @@
+#include "sim/cli/run_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/scene/camera.h"
+#include "firmware/scene/trigonometry.h"
+#include "sim/cli/camera_file.h"
+#include "sim/cli/option_values.h"
+#include "sim/cli/policy_option.h"
+#include "sim/common/error.h"
+#include "sim/common/files.h"
+#include "sim/common/progress.h"
+#include "sim/common/run_command.h"
+#include "sim/desk/desk.h"
+#include "sim/desk/run_report.h"
+#include "sim/image/png.h"
+
+namespace usuzumi::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kMostFrames = 1'000'000;
+constexpr std::uint32_t kMostThreads = 64;
+
+/// Where the picture is taken from when nobody says: a little from the right and from above.
+constexpr double kStandardAzimuth = 30 * firmware::kPi / 180;
+constexpr double kStandardElevation = 20 * firmware::kPi / 180;
+
+struct RunOptions {
+  std::string rom;
+  std::string board = "host-sim";
+  std::string size;
+  std::uint32_t frames = 1;
+  bool orbit = false;
+  std::string camera;
+  std::string thin = "on";
+  std::string quota;
+  std::string placement = "optimal";
+  std::vector<std::string> policies;
+  std::string engine = "soft";
+  std::uint32_t threads = 1;
+  std::string background = "202428";
+  std::string out;
+  std::string stats;
+};
+
+DeskConfig desk_config(const RunOptions& options) {
+  DeskConfig config;
+  config.board = *find_board(options.board);
+  if (!options.size.empty()) {
+    const PictureSize size = size_option("--size", options.size);
+    config.width = size.width;
+    config.height = size.height;
+  }
+  config.engine = options.engine == "osmesa" ? EngineKind::kOsmesa : EngineKind::kSoft;
+  config.threads = options.threads;
+  return config;
+}
+
+/// The camera of frame i: from a file (its last one holds on), a turn around the model, or the standard view.
+class CameraPath {
+ public:
+  CameraPath(const RunOptions& options, const Desk& desk)
+      : bounds_(firmware::bounds_of(desk.drawing_data())),
+        aspect_(static_cast<float>(desk.width()) / static_cast<float>(desk.height())),
+        frames_(options.orbit ? options.frames : 0) {
+    if (!options.camera.empty()) cameras_ = read_camera_file(options.camera, bounds_);
+  }
+
+  firmware::Camera at(std::uint32_t frame) const {
+    if (!cameras_.empty()) return cameras_[std::min<std::size_t>(frame, cameras_.size() - 1)];
+    const double turn = frames_ > 0 ? 2 * firmware::kPi * frame / frames_ : 0;
+    return firmware::orbit(bounds_, kStandardAzimuth + turn, kStandardElevation, aspect_);
+  }
+  float aspect() const { return aspect_; }
+
+ private:
+  firmware::Bounds bounds_;
+  float aspect_;
+  std::uint32_t frames_;
+  std::vector<firmware::Camera> cameras_;
+};
+
+Rgba8 background_option(const std::string& value) {
+  const bool hex = value.size() == 6 && value.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  if (!hex) throw Error(ExitCode::kUsage, fmt::format("--background {}: must be RRGGBB in hexadecimal, e.g. 202428", value));
+  const auto rgb = static_cast<std::uint32_t>(std::stoul(value, nullptr, 16));
+  return rgba8(rgb >> 16, rgb >> 8 & 0xFF, rgb & 0xFF);
+}
+
+/// Light comes over the viewer's right shoulder and follows the camera, so that no side stays dark.
+firmware::FrameRequest request_for(const firmware::Camera& camera, float aspect, const firmware::ThinningSettings& thinning, Rgba8 background) {
+  firmware::FrameRequest request;
+  request.model_to_clip = firmware::model_to_clip(camera, aspect);
+  const Vec3 back = normalized(camera.eye - camera.target);
+  const Vec3 right = normalized(cross(camera.up, back));
+  const Vec3 up = cross(back, right);
+  request.lighting.to_light = normalized(back + right * 0.4f + up * 0.6f);
+  request.lighting.background = background;
+  request.thinning = thinning;
+  return request;
+}
+
+firmware::ThinningSettings thinning_settings(const RunOptions& options, const PolicyOptions& policies) {
+  firmware::ThinningSettings settings;
+  settings.enabled = options.thin == "on";
+  settings.placement = placement_option(options.placement);
+  if (!options.quota.empty()) {
+    const FaceQuota quota = quota_option("--quota", options.quota);
+    settings.quota = {quota.kind, quota.value};
+  }
+  policies.apply(settings);
+  return settings;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(ExitCode::kCannotWrite, fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+}
+
+void check_combinations(const RunOptions& options) {
+  if (options.orbit && !options.camera.empty()) throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
+  if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty()))
+    throw Error(ExitCode::kUsage, "--thin off leaves nothing for --quota or --policy to do: drop one of them");
+  if (options.engine == "osmesa" && options.threads != 1)
+    throw Error(ExitCode::kUsage, "--threads is for the soft engine: OSMesa takes its number from LP_NUM_THREADS");
+}
+
+int run(const RunOptions& options) {
+  check_combinations(options);
+  const Rgba8 background = background_option(options.background);
+  const auto rom = read_file(options.rom);
+  Desk desk(desk_config(options), rom, options.rom);
+  const PolicyOptions policies(options.policies, desk.drawing_data());
+  const firmware::ThinningSettings thinning = thinning_settings(options, policies);
+  const CameraPath path(options, desk);
+  if (!options.out.empty()) make_folder(options.out);
+
+  std::vector<FrameRecord> records;
+  {
+    Progress progress("drawing");
+    for (std::uint32_t i = 0; i < options.frames; ++i) {
+      progress.update(static_cast<double>(i) / options.frames);
+      const Desk::Shown shown = desk.draw(request_for(path.at(i), path.aspect(), thinning, background));
+      records.push_back(shown.record);
+      if (!options.out.empty()) write_png(fs::path(options.out) / fmt::format("frame-{:04}.png", i), shown.picture);
+    }
+  }
+  const RunSummary summary{options.rom, options.board, options.engine, desk.width(), desk.height(), desk.memory()};
+  if (!options.stats.empty()) write_file_atomically(options.stats, run_report_json(summary, records));
+  if (options.stats != "/dev/stdout") fmt::print("{}", run_report_text(summary, records));
+  return exit_status(ExitCode::kOk);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  std::vector<std::string> board_names;
+  for (const BoardDescription& board : boards()) board_names.emplace_back(board.name);
+  CLI::App* command = app.add_subcommand("run", "Boot the device with a ROM and record what its panel shows");
+  command->add_option("ROM", options->rom, "ROM image: container or bare drawing data")->required();
+  command->add_option("--board", options->board, "The device's memories and clocks")->check(CLI::IsMember(board_names))->capture_default_str();
+  command->add_option("--size", options->size, "Picture, WIDTHxHEIGHT in pixels; without it the board's panel");
+  command->add_option("--frames", options->frames, "Frames to draw")->check(CLI::Range(1u, kMostFrames))->capture_default_str();
+  command->add_flag("--orbit", options->orbit, "Turn once around the model over the frames");
+  command->add_option("--camera", options->camera,
+                      "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, \"near\": …, \"far\": …}, …]}");
+  command->add_option("--thin", options->thin, "Thin as the authors allowed, or draw everything")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+  command->add_option("--quota", options->quota,
+                      "Faces for level-3 meshes instead of the authors' quotas: N over all of them, or P% of each");
+  command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
+      ->check(CLI::IsMember({"optimal", "midpoint"}))
+      ->capture_default_str();
+  command->add_option("--policy", options->policies,
+                      "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], random:SHARE%[:SEED]; "
+                      "with 2= or 3= before it for one level. May be given several times");
+  command->add_option("--engine", options->engine, "3D engine")->check(CLI::IsMember({"soft", "osmesa"}))->capture_default_str();
+  command->add_option("--threads", options->threads, "Host threads of the soft engine; the pictures do not depend on it")
+      ->check(CLI::Range(1u, kMostThreads))
+      ->capture_default_str();
+  command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
+  command->add_option("--out", options->out, "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it");
+  command->add_option("--stats", options->stats, "JSON file: CRC-32, faces, cycles and times of each frame");
+  command->footer("Example: usuzumi run car.rom --size 800x480 --frames 60 --orbit --out pictures --stats stats.json");
+  command->callback([options, &exit_code] { run_command(exit_code, [&] { return run(*options); }); });
+}
+
+}  // namespace usuzumi::sim

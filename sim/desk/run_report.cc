@@ -1,0 +1,87 @@
+#include "sim/desk/run_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace usuzumi::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* cause_name(firmware::UpdateCause cause) {
+  switch (cause) {
+    case firmware::UpdateCause::kFirst: return "first";
+    case firmware::UpdateCause::kDecisions: return "decisions changed";
+    case firmware::UpdateCause::kUnchanged: return "unchanged";
+  }
+  return "";
+}
+
+ordered_json frame_json(const FrameRecord& f) {
+  const firmware::ThinningReport& t = f.firmware.thinning;
+  return {{"frame", f.frame},
+          {"crc32", fmt::format("{:08x}", f.crc32)},
+          {"meshes_in", t.meshes_in},
+          {"meshes_out", t.meshes_out},
+          {"faces_in", t.faces_in},
+          {"faces_thinned", t.faces_out},
+          {"faces_drawn", f.firmware.faces_drawn},
+          {"engine_cycles", f.firmware.engine_cycles},
+          {"thin_ms", f.thin_ms},
+          {"draw_ms", f.draw_ms},
+          {"scanout_ms", f.scanout_ms},
+          {"host_ms", f.host_ms},
+          {"thinning",
+           {{"cause", cause_name(t.cause)},
+            {"meshes_built", t.meshes_built},
+            {"meshes_collapsed", t.meshes_collapsed},
+            {"quotas_missed", t.quotas_missed},
+            {"meshes_unthinned", t.meshes_unthinned},
+            {"meshes_dropped", t.meshes_dropped},
+            {"quota_halvings", t.quota_halvings},
+            {"max_error", t.max_error}}}};
+}
+
+}  // namespace
+
+std::string run_report_json(const RunSummary& summary, std::span<const FrameRecord> frames) {
+  ordered_json report{{"rom", summary.rom},
+                      {"board", summary.board},
+                      {"engine", summary.engine},
+                      {"width", summary.width},
+                      {"height", summary.height},
+                      {"ram_peak_bytes", summary.memory.ram_peak_bytes},
+                      {"vram_bytes", summary.memory.vram_bytes},
+                      {"rom_bytes", summary.memory.rom_bytes},
+                      {"frames", ordered_json::array()}};
+  for (const FrameRecord& f : frames) report["frames"].push_back(frame_json(f));
+  return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string run_report_text(const RunSummary& summary, std::span<const FrameRecord> frames) {
+  std::string text = fmt::format("{}: {} frame{} of {}x{} on board {}, engine {}\n", summary.rom, frames.size(),
+                                 frames.size() == 1 ? "" : "s", summary.width, summary.height, summary.board, summary.engine);
+  if (frames.empty()) return text;
+  double engine_ms = 0, host_ms = 0;
+  for (const FrameRecord& f : frames) engine_ms += f.draw_ms, host_ms += f.host_ms;
+  const auto count = static_cast<double>(frames.size());
+  const FrameRecord& first = frames.front();
+  const FrameRecord& last = frames.back();
+  const firmware::ThinningReport& t = last.firmware.thinning;
+  text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
+  text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out, last.firmware.faces_drawn);
+  text += fmt::format("  device  thinning {:.2f} ms once, drawing {:.2f} ms a frame, scan-out {:.2f} ms (virtual time)\n", first.thin_ms,
+                      engine_ms / count, last.scanout_ms);
+  text += fmt::format("  host    {:.2f} ms a frame\n", host_ms / count);
+  text += fmt::format("  memory  {:.1f} KB of RAM at most, {:.1f} KB of VRAM, {:.1f} KB of ROM\n", static_cast<double>(summary.memory.ram_peak_bytes) / 1e3,
+                      static_cast<double>(summary.memory.vram_bytes) / 1e3, static_cast<double>(summary.memory.rom_bytes) / 1e3);
+  text += fmt::format("  CRC-32  {:08x} (last frame)\n", last.crc32);
+  if (t.quotas_missed > 0) text += fmt::format("  {} mesh(es) kept more faces than their quota: every collapse left would flip a face or break the surface\n", t.quotas_missed);
+  if (t.quota_halvings > 0) text += fmt::format("  RAM was short: level-3 quotas were halved {} time(s)\n", t.quota_halvings);
+  if (t.meshes_unthinned > 0) text += fmt::format("  RAM was short: {} level-3 mesh(es) are drawn unthinned\n", t.meshes_unthinned);
+  if (t.meshes_dropped > 0) text += fmt::format("  RAM was short: {} mesh(es) are not drawn, the first is number {}\n", t.meshes_dropped, t.first_dropped);
+  return text;
+}
+
+}  // namespace usuzumi::sim

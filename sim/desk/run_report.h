@@ -1,0 +1,28 @@
+// What a run measured, as JSON and as a table.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "sim/desk/desk.h"
+
+namespace usuzumi::sim {
+
+struct RunSummary {
+  std::string rom;
+  std::string board;
+  std::string engine;
+  std::uint32_t width = 0, height = 0;
+  Desk::Memory memory;
+};
+
+/// {"rom", "board", "engine", "width", "height", "ram_peak_bytes", "vram_bytes", "rom_bytes", "frames": [...]}; each frame
+/// has crc32 (eight hexadecimal digits), meshes_in, meshes_out, faces_in, faces_thinned, faces_drawn, engine_cycles,
+/// thin_ms, draw_ms, scanout_ms (virtual time), host_ms, and what thinning did: cause, meshes_built, meshes_collapsed,
+/// quotas_missed, meshes_unthinned, meshes_dropped, quota_halvings, max_error.
+std::string run_report_json(const RunSummary& summary, std::span<const FrameRecord> frames);
+
+/// A few lines for a person.
+std::string run_report_text(const RunSummary& summary, std::span<const FrameRecord> frames);
+
+}  // namespace usuzumi::sim
