@@ -14,6 +14,7 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .cpu_hz = 800'000'000,
      .engine_hz = 200'000'000,
      .bus_bytes_per_second = 3'200'000'000,  // 64 bits at 400 MHz
+     .display_fifo_bytes = 8192,             // a line of 1920 pixels
      .width = 1920,
      .height = 720,
      .pixel_format = command::PixelFormat::kXrgb8888,
@@ -25,6 +26,7 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .cpu_hz = 400'000'000,
      .engine_hz = 100'000'000,
      .bus_bytes_per_second = 400'000'000,  // 32 bits at 100 MHz
+     .display_fifo_bytes = 2048,
      .width = 480,
      .height = 272,
      .pixel_format = command::PixelFormat::kRgb565,

@@ -17,6 +17,7 @@ struct BoardDescription {
   std::uint64_t cpu_hz = 0;
   std::uint64_t engine_hz = 0;
   std::uint64_t bus_bytes_per_second = 0;  // what the display controller's fetches get
+  std::uint32_t display_fifo_bytes = 0;
   std::uint32_t width = 0;                 // pixels of the panel
   std::uint32_t height = 0;
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;

@@ -6,6 +6,14 @@
 #include "sim/machine/cost_model.h"
 
 namespace usuzumi::sim {
+namespace {
+
+gfx::DisplayConfig display_config(const BoardDescription& board, const Faults& faults) {
+  const double bus = static_cast<double>(board.bus_bytes_per_second) / std::max(1.0, faults.bus_slowdown);
+  return {.reference_hz = kMasterHz, .bus_bytes_per_second = static_cast<std::uint64_t>(bus), .fifo_bytes = board.display_fifo_bytes};
+}
+
+}  // namespace
 
 Machine::Machine(const BoardDescription& board, std::span<const std::byte> rom, gfx::Engine& engine, gfx::VideoSink& video,
                  const Faults& faults)
