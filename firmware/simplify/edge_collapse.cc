@@ -33,8 +33,7 @@ struct Merge {
 
   void append(Corner c) {
     if (last == kNoCorner) {
-      Vertex& v = surface.vertices[keep];
-      v.first_corner = (v.first_corner & ~kCornerMask) | c;
+      surface.vertices[keep].first_corner = c;
     } else {
       std::uint32_t& link = surface.next_corner[corner_index(last)];
       link = (link & ~kCornerMask) | c;

@@ -31,7 +31,7 @@ inline float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 /// The edge from `a` to `b`. Where the quadric has no trustworthy minimum: the best of both ends and the middle, the
 /// middle on a tie.
 inline EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement) {
-  const Vec3 edge = surface.positions[b] - surface.positions[a];
+  const Vec3 edge = surface.position(b) - surface.position(a);
   const Vec3 middle = edge * 0.5f;
   EdgeCost result;
   result.quadric = sum_with_neighbour(surface.vertices[a].quadric, surface.vertices[b].quadric, edge);

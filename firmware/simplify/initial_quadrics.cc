@@ -10,15 +10,19 @@ namespace {
 constexpr float kBorderWeight = 2.0f;
 constexpr float kAttributeBorderWeight = 0.5f;
 
-// In Vertex::mark while a vertex looks at its edges to higher vertices: the number of faces still to be met on the edge
-// (bits 0-29); bit 31: its representative is chosen; bit 30: it has two faces.
-constexpr std::uint32_t kChosen = 1u << 31;
-constexpr std::uint32_t kRegular = 1u << 30;
+// In Place::mark while a vertex looks at its edges to higher vertices: the number of faces still to be met on the edge
+// (bits 0-26); faces run along it from here, and to here; its representative is chosen. Then the count alone says which
+// edges have two faces, and kTwoFaces remembers it.
+constexpr std::uint32_t kCountMask = (1u << 27) - 1;
+constexpr std::uint32_t kRunsOut = 1u << 27;
+constexpr std::uint32_t kRunsIn = 1u << 28;
+constexpr std::uint32_t kChosen = 1u << 29;
+constexpr std::uint32_t kTwoFaces = kRunsOut;  // from when kChosen is set
 
 Vec3 face_normal(const Surface& s, std::uint32_t face) {
   const Corner c = face * 4;
-  const Vec3 p = s.positions[s.vertex_at(c)];
-  return cross(s.positions[s.vertex_at(c + 1)] - p, s.positions[s.vertex_at(c + 2)] - p);
+  const Vec3 p = s.position(s.vertex_at(c));
+  return cross(s.position(s.vertex_at(c + 1)) - p, s.position(s.vertex_at(c + 2)) - p);
 }
 
 void add_face_planes(Surface& s) {
@@ -40,7 +44,7 @@ void add_constraint_plane(Surface& s, Corner c, float weight) {
   const float squared = dot(normal, normal);
   if (!(squared > 0)) return;
   // |edge x normal| = |edge| |normal|, so this scale gives the plane the weight |edge|^2.
-  const Vec3 plane = cross(s.positions[b] - s.positions[a], normal);
+  const Vec3 plane = cross(s.position(b) - s.position(a), normal);
   add_plane_through_owner(s.vertices[a].quadric, plane, weight / squared);
   add_plane_through_owner(s.vertices[b].quadric, plane, weight / squared);
 }
@@ -76,20 +80,23 @@ void add_attribute_border(Surface& s, Corner one, Corner from, std::uint32_t oth
   }
 }
 
-// One edge as met at corner `c` of its lower end.
-void meet_edge(Surface& s, Corner c, Corner half_edge, std::uint32_t other_end) {
-  std::uint32_t& mark = s.vertices[other_end].mark;
+// One edge as met at corner `c` of its lower end `v`.
+void meet_edge(Surface& s, std::uint32_t v, Corner c, Corner half_edge, std::uint32_t other_end) {
+  std::uint32_t& mark = s.places[other_end].mark;
   if ((mark & kChosen) == 0) {
-    if (mark == 2) {
-      mark |= kRegular;
-      if (s.vertex_of_wedge != nullptr) add_attribute_border(s, half_edge, c, other_end);
+    const bool two_faces = (mark & kCountMask) == 2;
+    if (!two_faces || (mark & (kRunsOut | kRunsIn)) != (kRunsOut | kRunsIn)) {
+      s.places[v].mark |= kSingular;
+      mark |= kSingular;
     }
-    mark |= kChosen;
+    mark &= ~(kRunsOut | kRunsIn);
+    mark |= kChosen | (two_faces ? kTwoFaces : 0);
     s.next_corner[corner_index(half_edge)] |= kRepresentative;
+    if (two_faces && s.vertex_of_wedge != nullptr) add_attribute_border(s, half_edge, c, other_end);
   }
-  if ((mark & kRegular) == 0) add_constraint_plane(s, half_edge, kBorderWeight);
+  if ((mark & kTwoFaces) == 0) add_constraint_plane(s, half_edge, kBorderWeight);
   --mark;
-  if ((mark & kCornerMask) == 0) mark = 0;
+  if ((mark & kCountMask) == 0) mark &= kPlaceFlags;
 }
 
 void choose_representatives(Surface& s) {
@@ -97,14 +104,14 @@ void choose_representatives(Surface& s) {
     for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
       const std::uint32_t out = s.vertex_at(next_in_face(c));
       const std::uint32_t in = s.vertex_at(previous_in_face(c));
-      if (out > v) ++s.vertices[out].mark;
-      if (in > v) ++s.vertices[in].mark;
+      if (out > v) s.places[out].mark = (s.places[out].mark + 1) | kRunsOut;
+      if (in > v) s.places[in].mark = (s.places[in].mark + 1) | kRunsIn;
     }
     for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
       const std::uint32_t out = s.vertex_at(next_in_face(c));
       const std::uint32_t in = s.vertex_at(previous_in_face(c));
-      if (out > v) meet_edge(s, c, c, out);
-      if (in > v) meet_edge(s, c, previous_in_face(c), in);
+      if (out > v) meet_edge(s, v, c, c, out);
+      if (in > v) meet_edge(s, v, c, previous_in_face(c), in);
     }
   }
 }

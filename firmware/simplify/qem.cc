@@ -65,10 +65,9 @@ class QemSimplifier {
     if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
     build_connectivity();
     if (faces_ > options_.target_faces) {
-      scale_to_working_extent();
       set_initial_quadrics(surface_);
       collapse_to_target();
-      scale_back();
+      outcome_.max_error *= 1.0f / scale_;
     }
     write_result();
     return outcome_;
@@ -77,9 +76,7 @@ class QemSimplifier {
  private:
   bool carve(Arena& scratch);
   void build_connectivity();
-  void scale_to_working_extent();
-  void scale_back();
-  void scale_positions(float factor);
+  void copy_positions();
   void collapse_to_target();
   bool fill_queue();
   void push_edge(Corner edge);
@@ -114,13 +111,13 @@ bool QemSimplifier::carve(Arena& scratch) {
   if (memory.data() == nullptr) return false;
   Arena arena(memory);
   vertex_of_wedge_ = arena.allocate<std::uint32_t>(mesh_.vertex_count, kAlignment);
+  surface_.places = arena.allocate<Place>(mesh_.vertex_count, kAlignment).data();
   surface_.vertices = arena.allocate<Vertex>(mesh_.vertex_count, kAlignment).data();
   const std::size_t mark = arena.used();
   weld_table_ = arena.allocate<std::uint32_t>(weld_table_slots(mesh_.vertex_count), kAlignment);
   arena.rewind(mark);
   surface_.next_corner = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 3, kAlignment).data();
   queue_ = EdgeQueue(arena.allocate<EdgeKey>(queue_slots(mesh_.face_count), kAlignment));
-  surface_.positions = mesh_.positions.data();
   surface_.indices = mesh_.indices.data();
   surface_.vertex_count = mesh_.vertex_count;
   surface_.face_count = mesh_.face_count;
@@ -135,14 +132,15 @@ void QemSimplifier::build_connectivity() {
     surface_.vertex_of_wedge = seam_map_;
   }
   faces_ = link_corners(surface_);
+  copy_positions();
 }
 
-void QemSimplifier::scale_to_working_extent() {
+void QemSimplifier::copy_positions() {
   Vec3 low, high;
   bool any = false;
   for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) {
     if (surface_.first_corner(v) == kNoCorner) continue;
-    const Vec3 p = surface_.positions[v];
+    const Vec3 p = mesh_.positions[v];
     if (!any) low = high = p;
     any = true;
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
@@ -152,20 +150,11 @@ void QemSimplifier::scale_to_working_extent() {
   const Vec3 half = high * 0.5f - low * 0.5f;
   float extent = half.x > half.y ? half.x : half.y;
   extent = extent > half.z ? extent : half.z;
-  if (!(extent > 0)) return;
-  while (extent * scale_ > kWorkingExtent) scale_ *= 0.5f;
-  while (extent * scale_ <= kWorkingExtent / 2 && scale_ < 0x1p100f) scale_ *= 2.0f;
-  scale_positions(scale_);
-}
-
-void QemSimplifier::scale_back() {
-  scale_positions(1.0f / scale_);
-  outcome_.max_error *= 1.0f / scale_;
-}
-
-void QemSimplifier::scale_positions(float factor) {
-  if (factor == 1.0f) return;
-  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) surface_.positions[v] = surface_.positions[v] * factor;
+  if (extent > 0) {
+    while (extent * scale_ > kWorkingExtent) scale_ *= 0.5f;
+    while (extent * scale_ <= kWorkingExtent / 2 && scale_ < 0x1p100f) scale_ *= 2.0f;
+  }
+  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) surface_.places[v] = {mesh_.positions[v] * scale_, 0};
 }
 
 void QemSimplifier::collapse_to_target() {
@@ -214,19 +203,21 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   n.a = surface_.vertex_at(edge);
   n.b = surface_.vertex_at(next_in_face(edge));
   if (!rules_.keeps_topology(n)) return false;
-  const Vec3 a = surface_.positions[n.a];
+  const Vec3 a = surface_.position(n.a);
   Vec3 position = a + cost.offset;
   const Vec3 volume_kept = position + (options_.placement == Placement::kOptimal ? shift_to_keep_volume(n, cost) : Vec3{});
   if (!(volume_kept == position) && !rules_.turns_a_face(n, volume_kept)) position = volume_kept;
   else if (rules_.turns_a_face(n, position)) return false;
 
-  const float t = attributes_.any() ? position_along(surface_.positions[n.b] - a, cost.offset) : 0.5f;
+  const float t = attributes_.any() ? position_along(surface_.position(n.b) - a, cost.offset) : 0.5f;
+  const std::uint32_t singular = (surface_.places[n.a].mark | surface_.places[n.b].mark) & kSingular;
   const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, t);
   const std::uint32_t v = collapsed.vertex;
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;
 
-  surface_.positions[v] = position;
+  surface_.places[v].position = position;
+  surface_.places[v].mark |= singular;
   Quadric& quadric = surface_.vertices[v].quadric;
   quadric = moved_to(cost.quadric, position - a);  // where rounding put it, not where it was meant to go
   quadric.c = at_least_zero(quadric.c);
@@ -241,8 +232,8 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
 
 void QemSimplifier::refuse(Corner edge) {
   surface_.next_corner[corner_index(edge)] |= kRefused;
-  surface_.vertices[surface_.vertex_at(edge)].first_corner |= kTouchesRefused;
-  surface_.vertices[surface_.vertex_at(next_in_face(edge))].first_corner |= kTouchesRefused;
+  surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
+  surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
 }
 
 // A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
@@ -251,13 +242,13 @@ void QemSimplifier::allow_again_around(std::uint32_t v) {
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
     for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
       const std::uint32_t u = surface_.vertex_at(other);
-      if ((surface_.vertices[u].first_corner & kTouchesRefused) != 0) allow_again_at(u);
+      if ((surface_.places[u].mark & kTouchesRefused) != 0) allow_again_at(u);
     }
   }
 }
 
 void QemSimplifier::allow_again_at(std::uint32_t v) {
-  surface_.vertices[v].first_corner &= ~kTouchesRefused;
+  surface_.places[v].mark &= ~kTouchesRefused;
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
     for (const Corner half_edge : {c, previous_in_face(c)}) {
       std::uint32_t& flags = surface_.next_corner[corner_index(half_edge)];
@@ -271,7 +262,7 @@ void QemSimplifier::allow_again_at(std::uint32_t v) {
 /// Moves what is left to the front of the mesh's arrays, in its old order.
 void QemSimplifier::write_result() {
   constexpr std::uint32_t kUnused = 0xFFFFFFFFu, kUsed = 0;
-  Vertex* wedges = surface_.vertices;  // `mark` becomes each wedge's new number
+  Place* wedges = surface_.places;  // `mark` becomes each wedge's new number
   for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) wedges[w].mark = kUnused;
   std::uint32_t faces = 0;
   for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
@@ -283,14 +274,10 @@ void QemSimplifier::write_result() {
     }
     ++faces;
   }
-  if (seam_map_ != nullptr) {
-    for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w)
-      if (wedges[w].mark == kUsed) mesh_.positions[w] = mesh_.positions[seam_map_[w]];
-  }
   std::uint32_t used = 0;
   for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) {
     if (wedges[w].mark == kUnused) continue;
-    mesh_.positions[used] = mesh_.positions[w];
+    mesh_.positions[used] = wedges[seam_map_ == nullptr ? w : seam_map_[w]].position * (1.0f / scale_);
     if (attributes_.normals != nullptr) mesh_.normals[used] = mesh_.normals[w];
     if (attributes_.colours != nullptr) mesh_.colours[used] = mesh_.colours[w];
     wedges[w].mark = used++;
@@ -311,7 +298,8 @@ Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& o
 }
 
 std::size_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  return kAlignment + aligned(std::size_t{vertex_count} * 4) + aligned(std::size_t{vertex_count} * sizeof(Vertex)) +
+  return kAlignment + aligned(std::size_t{vertex_count} * 4) + aligned(std::size_t{vertex_count} * sizeof(Place)) +
+         aligned(std::size_t{vertex_count} * sizeof(Vertex)) +
          links_and_queue_bytes(vertex_count, face_count);
 }
 

@@ -27,7 +27,7 @@ void unlink_corner(Surface& surface, std::uint32_t v, Corner c) {
   const Corner after = surface.next_corner_of(c);
   Corner walk = surface.first_corner(v);
   if (walk == c) {
-    surface.vertices[v].first_corner = (surface.vertices[v].first_corner & ~kCornerMask) | after;
+    surface.vertices[v].first_corner = after;
     return;
   }
   while (surface.next_corner_of(walk) != c) walk = surface.next_corner_of(walk);

@@ -26,7 +26,9 @@ inline constexpr Corner kCornerMask = 0x3FFFFFFFu;  // bits 29-0 of a link
 inline constexpr Corner kNoCorner = kCornerMask;    // ends a list
 inline constexpr std::uint32_t kRepresentative = 1u << 30;  // in next_corner: this half-edge stands for its edge
 inline constexpr std::uint32_t kRefused = 1u << 31;  // in next_corner: its collapse was refused and nothing near has changed
-inline constexpr std::uint32_t kTouchesRefused = 1u << 31;  // in first_corner: an edge here may be marked kRefused
+inline constexpr std::uint32_t kTouchesRefused = 1u << 31;  // in Place::mark: an edge here may be marked kRefused
+inline constexpr std::uint32_t kSingular = 1u << 30;  // in Place::mark: an edge here has not two faces that run opposite ways
+inline constexpr std::uint32_t kPlaceFlags = kTouchesRefused | kSingular;
 inline constexpr std::uint32_t kDeadFace = 0xFFFFFFFFu;     // in the first index of a face that is gone
 inline constexpr std::uint32_t kMostFaces = (1u << 28) - 1;
 
@@ -34,17 +36,24 @@ constexpr std::size_t corner_index(Corner c) { return c - (c >> 2); }
 constexpr Corner next_in_face(Corner c) { return (c & 3) == 2 ? c - 2 : c + 1; }
 constexpr Corner previous_in_face(Corner c) { return (c & 3) == 0 ? c + 2 : c - 1; }
 
+/// What a walk around a vertex needs of its neighbours, four to a cache line.
+struct Place {
+  Vec3 position;           // in working units
+  std::uint32_t mark = 0;  // kPlaceFlags; the rest is scratch of whoever walks a neighbourhood, see each user
+};
+static_assert(sizeof(Place) == 16);
+
+/// What is needed of a vertex itself.
 struct Vertex {
   Quadric quadric;
-  std::uint32_t first_corner = kNoCorner;
-  std::uint32_t mark = 0;  // scratch of whoever walks a neighbourhood; see each user
+  Corner first_corner = kNoCorner;
 };
-static_assert(sizeof(Vertex) == 48);
+static_assert(sizeof(Vertex) == 44);
 
 /// Non-owning view of the mesh and its connectivity. Vertex arrays are as long as the wedge arrays; only entries that
 /// are vertices are meaningful.
 struct Surface {
-  Vec3* positions = nullptr;            // of vertices; the other wedges' are written at the end
+  Place* places = nullptr;
   std::uint32_t* indices = nullptr;     // 3 per face: wedges
   std::uint32_t* next_corner = nullptr; // 3 per face: link and flags
   Vertex* vertices = nullptr;
@@ -56,7 +65,8 @@ struct Surface {
     const std::uint32_t wedge = indices[corner_index(c)];
     return vertex_of_wedge == nullptr ? wedge : vertex_of_wedge[wedge];
   }
-  Corner first_corner(std::uint32_t v) const { return vertices[v].first_corner & kCornerMask; }
+  Vec3 position(std::uint32_t v) const { return places[v].position; }
+  Corner first_corner(std::uint32_t v) const { return vertices[v].first_corner; }
   Corner next_corner_of(Corner c) const { return next_corner[corner_index(c)] & kCornerMask; }
   bool is_dead(std::uint32_t face) const { return indices[std::size_t{face} * 3] == kDeadFace; }
 };
