@@ -1,10 +1,10 @@
-// Engine clocks that a command list takes: the table below times what the engine counted. Counts do not depend on threads,
-// SIMD width or which Engine runs, and so neither does the time.
+// Engine clocks that a command list takes: the table below times what the engine counted. Counts do not depend on
+// threads, SIMD width or which Engine runs, and so neither does the time.
 //
 // The numbers are those of a plausible small fixed-function part, not of any one product: a front end that reads a
-// command word per clock, a vertex unit of one multiply-add lane (a 4x4 transform is 16 of them, light and divide overlap
-// the next vertex), a set-up unit of 24 clocks, one tested pixel per clock and a 64-bit path that fills four pixels a
-// clock in clears. The stages overlap in such a part; here their clocks are added, which is the upper bound.
+// command word per clock, a vertex unit of one multiply-add lane (a 4x4 transform is 16 of them, light and divide
+// overlap the next vertex), a set-up unit of 24 clocks, one tested pixel per clock and a 64-bit path that fills four
+// pixels a clock in clears. The stages overlap in such a part; here their clocks are added, which is the upper bound.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace usuzumi::gfx {
 
-/// Engine clock of the desk machine; boards state their own.
+/// Engine clock of the desk machine; other boards state their own.
 inline constexpr std::uint64_t kEngineClockHz = 200'000'000;
 
-struct EngineCosts {               // engine clocks
-  std::uint64_t list = 200;        // doorbell, first fetch, interrupt
+struct EngineCosts {         // engine clocks
+  std::uint64_t list = 200;  // doorbell, first fetch, interrupt
   std::uint64_t command_word = 1;
   std::uint64_t vertex = 16;
-  std::uint64_t primitive = 4;     // assembly, trivial rejection and culling of each one submitted
-  std::uint64_t face_drawn = 24;   // set-up of each triangle that reaches the rasterizer
+  std::uint64_t primitive = 4;    // assembly, trivial rejection and culling of each one submitted
+  std::uint64_t face_drawn = 24;  // set-up of each triangle that reaches the rasterizer
   std::uint64_t pixel_tested = 1;
   std::uint64_t pixels_cleared_per_clock = 4;
 };

@@ -27,7 +27,7 @@ ErrorCode error_code_of(StatusCode code) {
   return ErrorCode::kInternal;
 }
 
-/// Engine clocks in units of virtual time, rounded up, without overflow for any count below 2^64 / (time_hz / engine_hz).
+/// Engine clocks in units of virtual time, rounded up; no overflow while the result is below 2^64.
 std::uint64_t time_of(std::uint64_t cycles, const EngineDevice::Config& config) {
   const std::uint64_t seconds = cycles / config.engine_hz;
   const std::uint64_t rest = cycles % config.engine_hz;  // rest * time_hz < 2^64 for clocks below 4 GHz
@@ -43,11 +43,17 @@ constexpr std::uint32_t saturated(std::uint64_t v) { return v > kAllBits ? kAllB
 constexpr RegisterFile<EngineDevice, EngineDevice::kRegisterCount>::Table EngineDevice::kTable{{
     {.name = "ID", .offset = reg::Id::kOffset, .reset = reg::Id::kReset, .read_only = kAllBits},
     {.name = "VER", .offset = reg::Ver::kOffset, .reset = reg::Ver::kReset, .read_only = kAllBits},
-    {.name = "CTRL", .offset = reg::Ctrl::kOffset, .strobe = reg::Ctrl::kRst.mask(), .on_write = &EngineDevice::on_control},
+    {.name = "CTRL",
+     .offset = reg::Ctrl::kOffset,
+     .strobe = reg::Ctrl::kRst.mask(),
+     .on_write = &EngineDevice::on_control},
     {.name = "STAT", .offset = reg::Stat::kOffset, .read_only = reg::Stat::kBusy.mask() | reg::Stat::kErr.mask()},
     {.name = "LADR", .offset = reg::Ladr::kOffset, .writable = kAllBits},
     {.name = "LWRD", .offset = reg::Lwrd::kOffset, .writable = reg::Lwrd::kWords.mask()},
-    {.name = "BELL", .offset = reg::Bell::kOffset, .strobe = reg::Bell::kRing.mask(), .on_write = &EngineDevice::on_doorbell},
+    {.name = "BELL",
+     .offset = reg::Bell::kOffset,
+     .strobe = reg::Bell::kRing.mask(),
+     .on_write = &EngineDevice::on_doorbell},
     {.name = "INTST", .offset = reg::IntSt::kOffset, .write_1_to_clear = reg::kIntAll},
     {.name = "INTEN", .offset = reg::IntEn::kOffset, .writable = reg::kIntAll},
     {.name = "ECODE", .offset = reg::ECode::kOffset, .read_only = kAllBits},

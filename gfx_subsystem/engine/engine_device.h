@@ -1,8 +1,8 @@
 // The 3D engine as the bus sees it: registers (hal/registers/engine.h) outside, an Engine inside.
 //
-// The doorbell executes the list at once, in no virtual time; the end of it then becomes visible after the engine clocks
-// that the cost model charges for what was done. Pixels are thus in the target a little before the interrupt says so:
-// software that waits for the interrupt, as it must, cannot tell.
+// The doorbell executes the list at once, in no virtual time; the end of it then becomes visible after the engine
+// clocks that the cost model charges for what was done. Pixels are thus in the target a little before the interrupt
+// says so: software that waits for the interrupt, as it must, cannot tell.
 #pragma once
 
 #include <cstdint>

@@ -15,22 +15,30 @@ constexpr int kMaxSpuriousWakes = 4;
 
 Status engine_fault(std::uint32_t code, std::uint32_t word) {
   switch (static_cast<ErrorCode>(code)) {
-    case ErrorCode::kListUnaligned: return {StatusCode::kInvalidArgument, "engine: the list's address is no multiple of 4", word};
+    case ErrorCode::kListUnaligned:
+      return {StatusCode::kInvalidArgument, "engine: the list's address is no multiple of 4", word};
     case ErrorCode::kListEmpty: return {StatusCode::kInvalidArgument, "engine: the list has no words", word};
-    case ErrorCode::kListNotMemory: return {StatusCode::kInvalidArgument, "engine: the list does not lie in memory", word};
-    case ErrorCode::kListCorrupt: return {StatusCode::kDataLoss, "engine: malformed packet at this word of the list", word};
-    case ErrorCode::kUnknownCommand: return {StatusCode::kUnsupported, "engine: unknown command at this word of the list", word};
+    case ErrorCode::kListNotMemory:
+      return {StatusCode::kInvalidArgument, "engine: the list does not lie in memory", word};
+    case ErrorCode::kListCorrupt:
+      return {StatusCode::kDataLoss, "engine: malformed packet at this word of the list", word};
+    case ErrorCode::kUnknownCommand:
+      return {StatusCode::kUnsupported, "engine: unknown command at this word of the list", word};
     case ErrorCode::kValueOutOfRange:
-      return {StatusCode::kInvalidArgument, "engine: value or address out of range in the packet at this word of the list", word};
+      return {StatusCode::kInvalidArgument,
+              "engine: value or address out of range in the packet at this word of the list", word};
     case ErrorCode::kStateMissing:
-      return {StatusCode::kFailedPrecondition, "engine: the packet at this word of the list needs a target or stream first", word};
+      return {StatusCode::kFailedPrecondition,
+              "engine: the packet at this word of the list needs a target or stream first", word};
     case ErrorCode::kOutOfInternalMemory:
-      return {StatusCode::kResourceExhausted, "engine: the draw at this word of the list is too large for the engine", word};
+      return {StatusCode::kResourceExhausted, "engine: the draw at this word of the list is too large for the engine",
+              word};
     case ErrorCode::kInternal:
       return {StatusCode::kUnavailable, "engine: the engine itself failed at this word of the list", word};
     case ErrorCode::kNone: break;
   }
-  return {StatusCode::kUnavailable, "engine: stopped with an error code this driver does not know; `where` is the code", code};
+  return {StatusCode::kUnavailable, "engine: stopped with an error code this driver does not know; `where` is the code",
+          code};
 }
 
 }  // namespace
@@ -55,7 +63,8 @@ Status EngineDriver::probe() {
 
 Status EngineDriver::start(BusAddress list, std::uint32_t words) {
   if (!probed_) return {StatusCode::kFailedPrecondition, "engine: start before a successful probe", 0};
-  if (list == 0 || list % 4 != 0) return {StatusCode::kInvalidArgument, "engine: list address is 0 or no multiple of 4", list};
+  if (list == 0 || list % 4 != 0)
+    return {StatusCode::kInvalidArgument, "engine: list address is 0 or no multiple of 4", list};
   if (words == 0 || words > reg::Lwrd::kWords.max())
     return {StatusCode::kInvalidArgument, "engine: list of 0 words or more than 0xFFFFFF", words};
   if (reg::Stat::kBusy.get(read(reg::Stat::kOffset)) != 0)
@@ -76,11 +85,13 @@ Status EngineDriver::wait_done(std::uint32_t timeout_us) {
     if (ended != 0) {  // even when the wait timed out: the list may have ended just then
       write(reg::IntSt::kOffset, ended);
       started_ = false;
-      return (ended & reg::kIntError) != 0 ? engine_fault(read(reg::ECode::kOffset), read(reg::EWord::kOffset)) : ok_status();
+      return (ended & reg::kIntError) != 0 ? engine_fault(read(reg::ECode::kOffset), read(reg::EWord::kOffset))
+                                           : ok_status();
     }
     if (waited.code == StatusCode::kDeadlineExceeded) {
       reset_and_enable();
-      return {StatusCode::kDeadlineExceeded, "engine: list not done in this many microseconds; engine reset", timeout_us};
+      return {StatusCode::kDeadlineExceeded, "engine: list not done in this many microseconds; engine reset",
+              timeout_us};
     }
     if (!waited.ok()) return waited;
   }

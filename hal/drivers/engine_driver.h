@@ -1,4 +1,4 @@
-// Driver of the 3D engine's registers (hal/registers/engine.h): rings the doorbell, waits, and says in words what failed.
+// Driver of the 3D engine (hal/registers/engine.h): rings the doorbell, waits, and says in words what failed.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ class EngineDriver {
   /// (`where`: the ID read); kUnsupported for a rasterizer of another major version (`where`: the version read).
   Status probe();
 
-  /// Starts a list of `words` words, kEnd included, at bus address `list`. kInvalidArgument when it is unaligned, empty,
-  /// at address 0 or longer than the engine can take; kFailedPrecondition before probe(); kUnavailable while busy.
+  /// Starts a list of `words` words, kEnd included, at bus address `list`. kInvalidArgument when it is unaligned,
+  /// empty, at address 0 or longer than the engine can take; kFailedPrecondition before probe(); kUnavailable while
+  /// busy.
   Status start(BusAddress list, std::uint32_t words);
 
-  /// Sleeps until the list has ended. An engine error becomes a Status with the list's word in `where`; error_code() has
-  /// the number. kDeadlineExceeded after `timeout_us`: the engine is soft-reset and can be started again.
+  /// Sleeps until the list has ended. An engine error becomes a Status with the list's word in `where`; error_code()
+  /// has the number. kDeadlineExceeded after `timeout_us`: the engine is soft-reset and can be started again.
   /// kFailedPrecondition when nothing was started.
   Status wait_done(std::uint32_t timeout_us);
 

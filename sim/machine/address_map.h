@@ -1,4 +1,4 @@
-// Where everything lies on the simulated machine's bus, and how fast its master clock runs. README.md shows it as a table.
+// Where everything lies on the machine's bus, and how fast its master clock runs. README.md shows it as a table.
 #pragma once
 
 #include <cstddef>

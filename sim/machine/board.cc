@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "gfx_subsystem/engine/cost_model.h"
+
 namespace usuzumi::sim {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .ram_bytes = 512 * kMiB,
      .vram_bytes = 64 * kMiB,
      .cpu_hz = 800'000'000,
-     .engine_hz = 200'000'000,
+     .engine_hz = gfx::kEngineClockHz,
      .bus_bytes_per_second = 3'200'000'000,  // 64 bits at 400 MHz
      .display_fifo_bytes = 8192,             // a line of 1920 pixels
      .width = 1920,

@@ -18,17 +18,18 @@ struct BoardDescription {
   std::uint64_t engine_hz = 0;
   std::uint64_t bus_bytes_per_second = 0;  // what the display controller's fetches get
   std::uint32_t display_fifo_bytes = 0;
-  std::uint32_t width = 0;                 // pixels of the panel
+  std::uint32_t width = 0;  // pixels of the panel
   std::uint32_t height = 0;
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
-  std::uint32_t command_list_words = 0;    // per frame
+  std::uint32_t command_list_words = 0;  // per frame
 };
 
 /// The desk machine: plenty of memory (reserved, used only as touched), XRGB8888 with 24 bits of depth.
 const BoardDescription& host_sim();
 
-/// A small cluster: 2 MiB RAM, 1 MiB VRAM, 480x272 in RGB565 with 16 bits of depth. Two frames and depth fill 3/4 of VRAM.
+/// A small cluster: 2 MiB RAM, 1 MiB VRAM, 480x272 in RGB565 with 16 bits of depth. Two pictures and depth fill
+/// 3/4 of VRAM.
 const BoardDescription& small_board();
 
 /// Every board, for `--help` and messages.

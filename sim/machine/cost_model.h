@@ -1,9 +1,9 @@
 // CPU clocks that the firmware's work takes on the simulated machine.
 //
-// Plausible for an in-order Cortex-A/R class core with caches and drawing data in serial flash; of no product, measured on
-// none. Each number is an operation count with one cache line (32 bytes, 40 clocks from flash, 20 from RAM) per 32 bytes
-// touched in order, and one RAM miss per datum reached by a pointer. Together with the counts the firmware charges they
-// make times that depend on the work alone, so that drawing-time control can be tested.
+// Plausible for an in-order Cortex-A/R class core with caches and drawing data in serial flash; of no product, measured
+// on none. Each number is an operation count with one cache line (32 bytes, 40 clocks from flash, 20 from RAM) per 32
+// bytes touched in order, and one RAM miss per datum reached by a pointer. Together with the counts the firmware
+// charges they make times that depend on the work alone, so that drawing-time control can be tested.
 #pragma once
 
 #include <array>
@@ -20,14 +20,14 @@ struct CpuCost {
 };
 
 inline constexpr std::array<CpuCost, static_cast<std::size_t>(CpuWork::kCount)> kCpuCosts{{
-    {CpuWork::kVertexCopied, 30},         // 20 bytes (position, normal, colour) out of flash, checked, into RAM
-    {CpuWork::kIndexCopied, 8},           // 4 bytes likewise, compared with the vertex count
-    {CpuWork::kVertexMeasured, 40},       // 16 multiply-adds, a divide
-    {CpuWork::kFaceMeasured, 60},         // outcode test, cross product, sum; clipped faces average in
-    {CpuWork::kConnectivityBuilt, 100},   // three corners counted and placed: five scattered accesses
-    {CpuWork::kEdgeCosted, 200},          // two quadrics added, 3x3 solved, error evaluated: about 90 operations, 4 misses
-    {CpuWork::kQueueOperation, 90},       // about four levels of a heap, one miss each
-    {CpuWork::kEdgeCollapsed, 500},       // flip and link test around two one-rings of six faces, then relinked
+    {CpuWork::kVertexCopied, 30},        // 20 bytes (position, normal, colour) out of flash, checked, into RAM
+    {CpuWork::kIndexCopied, 8},          // 4 bytes likewise, compared with the vertex count
+    {CpuWork::kVertexMeasured, 40},      // 16 multiply-adds, a divide
+    {CpuWork::kFaceMeasured, 60},        // outcode test, cross product, sum; clipped faces average in
+    {CpuWork::kConnectivityBuilt, 100},  // three corners counted and placed: five scattered accesses
+    {CpuWork::kEdgeCosted, 200},     // two quadrics added, 3x3 solved, error evaluated: about 90 operations, 4 misses
+    {CpuWork::kQueueOperation, 90},  // about four levels of a heap, one miss each
+    {CpuWork::kEdgeCollapsed, 500},  // flip and link test around two one-rings of six faces, then relinked
     {CpuWork::kCommandWritten, 2},
 }};
 

@@ -1,5 +1,5 @@
-// What the firmware did wrong at the registers, and what it asked of the model that the model does not do: counted apart,
-// the first of them kept as text for whoever runs the machine.
+// What the firmware did wrong at the registers, and what it asked of the model that the model does not do: counted
+// apart, the first of them kept as text for whoever runs the machine.
 #pragma once
 
 #include <cstddef>

@@ -4,13 +4,17 @@ namespace usuzumi::sim {
 
 namespace reg = interrupt_registers;
 
-constexpr gfx::RegisterFile<InterruptController, InterruptController::kRegisterCount>::Table InterruptController::kTable{{
-    {.name = "ID", .offset = reg::Id::kOffset, .reset = reg::Id::kReset, .read_only = 0xFFFFFFFFu},
-    {.name = "LINE", .offset = reg::Line::kOffset, .read_only = reg::kAllLines},
-    {.name = "PEND", .offset = reg::Pend::kOffset, .read_only = reg::kAllLines},
-    {.name = "EN", .offset = reg::En::kOffset, .writable = reg::kAllLines},
-    {.name = "ACK", .offset = reg::Ack::kOffset, .strobe = reg::kAllLines, .on_write = &InterruptController::on_acknowledge},
-}};
+constexpr gfx::RegisterFile<InterruptController, InterruptController::kRegisterCount>::Table
+    InterruptController::kTable{{
+        {.name = "ID", .offset = reg::Id::kOffset, .reset = reg::Id::kReset, .read_only = 0xFFFFFFFFu},
+        {.name = "LINE", .offset = reg::Line::kOffset, .read_only = reg::kAllLines},
+        {.name = "PEND", .offset = reg::Pend::kOffset, .read_only = reg::kAllLines},
+        {.name = "EN", .offset = reg::En::kOffset, .writable = reg::kAllLines},
+        {.name = "ACK",
+         .offset = reg::Ack::kOffset,
+         .strobe = reg::kAllLines,
+         .on_write = &InterruptController::on_acknowledge},
+    }};
 
 InterruptController::InterruptController(gfx::RegisterLog* log) : registers_(kTable, log) {
   static_assert(gfx::is_well_formed(kTable));

@@ -10,16 +10,19 @@ namespace {
 
 gfx::DisplayConfig display_config(const BoardDescription& board, const Faults& faults) {
   const double bus = static_cast<double>(board.bus_bytes_per_second) / std::max(1.0, faults.bus_slowdown);
-  return {.reference_hz = kMasterHz, .bus_bytes_per_second = static_cast<std::uint64_t>(bus), .fifo_bytes = board.display_fifo_bytes};
+  return {.reference_hz = kMasterHz,
+          .bus_bytes_per_second = static_cast<std::uint64_t>(bus),
+          .fifo_bytes = board.display_fifo_bytes};
 }
 
 }  // namespace
 
-Machine::Machine(const BoardDescription& board, std::span<const std::byte> rom, gfx::Engine& engine, gfx::VideoSink& video,
-                 const Faults& faults)
+Machine::Machine(const BoardDescription& board, std::span<const std::byte> rom, gfx::Engine& engine,
+                 gfx::VideoSink& video, const Faults& faults)
     : MemoryMap(rom, board.ram_bytes, board.vram_bytes),
       board_(board),
-      engine_(engine, *this, {.time_hz = kMasterHz, .engine_hz = board.engine_hz, .hangs = faults.engine_hangs}, &engine_log_),
+      engine_(engine, *this, {.time_hz = kMasterHz, .engine_hz = board.engine_hz, .hangs = faults.engine_hangs},
+              &engine_log_),
       display_(*this, video, display_config(board, faults), &display_log_),
       interrupts_(&interrupt_log_) {
   poll_devices();

@@ -1,5 +1,5 @@
-// The device put together: memories, 3D engine, display controller and interrupt controller on one bus, under one virtual
-// clock. What the firmware reaches, it reaches through the interfaces of hal/include that this class implements.
+// The device put together: memories, 3D engine, display controller and interrupt controller on one bus, under one
+// virtual clock. What the firmware reaches, it reaches through the interfaces of hal/include implemented here.
 #pragma once
 
 #include <cstddef>

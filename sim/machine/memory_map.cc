@@ -21,7 +21,8 @@ std::size_t whole_pages(std::size_t bytes) {
 }
 
 std::size_t checked(const char* what, ExitCode code, std::size_t bytes, std::size_t most) {
-  if (bytes > most) throw Error(code, fmt::format("{} of {} bytes: the address map has room for {}", what, bytes, most));
+  if (bytes > most)
+    throw Error(code, fmt::format("{} of {} bytes: the address map has room for {}", what, bytes, most));
   return bytes;
 }
 
@@ -30,7 +31,8 @@ std::size_t checked(const char* what, ExitCode code, std::size_t bytes, std::siz
 HostPages::HostPages(std::size_t bytes) : size_(bytes), reserved_(whole_pages(bytes)) {
   void* p = ::mmap(nullptr, reserved_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (p == MAP_FAILED)
-    throw Error(ExitCode::kDevice, fmt::format("cannot reserve {} bytes for the device's memory: {}", bytes, std::strerror(errno)));
+    throw Error(ExitCode::kDevice,
+                fmt::format("cannot reserve {} bytes for the device's memory: {}", bytes, std::strerror(errno)));
   data_ = static_cast<std::byte*>(p);
 }
 
@@ -57,7 +59,8 @@ std::span<std::byte> MemoryMap::resolve(BusAddress address, std::size_t size, bo
     std::span<std::byte> bytes;
     bool writable;
   };
-  const Place places[] = {{kRomBase, rom_.bytes(), false}, {kRamBase, ram_.bytes(), true}, {kVramBase, vram_.bytes(), true}};
+  const Place places[] = {
+      {kRomBase, rom_.bytes(), false}, {kRamBase, ram_.bytes(), true}, {kVramBase, vram_.bytes(), true}};
   for (const Place& place : places) {
     if (address < place.base || address - place.base >= place.bytes.size()) continue;
     const std::size_t offset = address - place.base;
@@ -70,7 +73,9 @@ std::span<std::byte> MemoryMap::resolve(BusAddress address, std::size_t size, bo
 std::span<const std::byte> MemoryMap::do_read_window(BusAddress address, std::size_t size) const {
   return resolve(address, size, false);
 }
-std::span<std::byte> MemoryMap::do_write_window(BusAddress address, std::size_t size) { return resolve(address, size, true); }
+std::span<std::byte> MemoryMap::do_write_window(BusAddress address, std::size_t size) {
+  return resolve(address, size, true);
+}
 
 BusAddress MemoryMap::do_bus_address(const void* pointer) const {
   const auto p = reinterpret_cast<std::uintptr_t>(pointer);

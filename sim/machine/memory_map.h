@@ -1,4 +1,4 @@
-// The machine's memories on its bus: ROM that cannot be written, RAM, VRAM. Pages are reserved, and used only as touched.
+// The machine's memories on its bus: ROM that cannot be written, RAM, VRAM. Pages are reserved, used only as touched.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ class HostPages {
 
 class MemoryMap : public BusMemory, public AddressTranslation {
  public:
-  /// Copies `rom`. Throws Error: kBadInput when the ROM, kDevice when RAM or VRAM exceed their place in the address map.
+  /// Copies `rom`. Throws Error: kBadInput when the ROM, kDevice when RAM or VRAM exceed their place in the map.
   MemoryMap(std::span<const std::byte> rom, std::size_t ram_bytes, std::size_t vram_bytes);
 
   /// Where the CPU sees them. Writing to ROM through a cast ends the process with a fault, as the stray write it is.

@@ -32,10 +32,10 @@ TEST(CommandWriter, WritesPacketsAsTheEngineReadsThem) {
   const auto list = writer.finish();
   ASSERT_TRUE(list.ok());
   const std::array<std::uint32_t, 17> expected{
-      0x01000005u, 0x80000000u, 1920, 480, 272, 1,       // target
-      0x10000003u, 3, 0xFF030201u, 0x3F800000u,          // clear: colour and depth, 1.0
-      0x11000005u, 3, 1, 0x50001000u, 2, 7,              // draw
-      0x00000000u};                                      // end
+      0x01000005u, 0x80000000u, 1920,        480,         272, 1,  // target
+      0x10000003u, 3,           0xFF030201u, 0x3F800000u,          // clear: colour and depth, 1.0
+      0x11000005u, 3,           1,           0x50001000u, 2,   7,  // draw
+      0x00000000u};                                                // end
   ASSERT_EQ(list->size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ((*list)[i], expected[i]) << "word " << i;
 }

@@ -1,5 +1,5 @@
-// The engine's driver against a scripted register block: what it writes, in which order, and what it makes of the answers.
-// Offsets and values are literals here, so that a slip in hal/registers/engine.h shows.
+// The engine's driver against a scripted register block: what it writes, in which order, and what it makes of the
+// answers. Offsets and values are literals here, so that a slip in hal/registers/engine.h shows.
 #include "hal/drivers/engine_driver.h"
 
 #include <gmock/gmock.h>
@@ -19,8 +19,8 @@ using ::testing::ElementsAre;
 using ::testing::Pair;
 
 constexpr BusAddress kBase = 0xF0000000u;
-constexpr std::uint32_t kCtrl = 0x08, kStat = 0x0C, kLadr = 0x10, kLwrd = 0x14, kBell = 0x18, kIntSt = 0x1C, kIntEn = 0x20,
-                        kECode = 0x24, kEWord = 0x28;
+constexpr std::uint32_t kCtrl = 0x08, kStat = 0x0C, kLadr = 0x10, kLwrd = 0x14, kBell = 0x18, kIntSt = 0x1C,
+                        kIntEn = 0x20, kECode = 0x24, kEWord = 0x28;
 
 /// Holds what the engine would answer and remembers what was written.
 class FakeRegisters final : public RegisterIo {
@@ -96,7 +96,8 @@ TEST_F(EngineDriverTest, StartWritesTheListAndThenRings) {
   ASSERT_TRUE(driver.probe().ok());
   registers.writes.clear();
   ASSERT_TRUE(driver.start(0x50000100u, 12).ok());
-  EXPECT_THAT(registers.writes, ElementsAre(Pair(kIntSt, 7u), Pair(kLadr, 0x50000100u), Pair(kLwrd, 12u), Pair(kBell, 1u)));
+  EXPECT_THAT(registers.writes,
+              ElementsAre(Pair(kIntSt, 7u), Pair(kLadr, 0x50000100u), Pair(kLwrd, 12u), Pair(kBell, 1u)));
 }
 
 TEST_F(EngineDriverTest, StartRefusesBadListsBeforeAnyRegisterIsWritten) {
@@ -129,8 +130,8 @@ TEST_F(EngineDriverTest, WaitClearsTheEnginesFlag) {
 
 TEST_F(EngineDriverTest, WaitSaysWhatTheEngineObjectsToAndWhere) {
   const std::pair<std::uint32_t, StatusCode> cases[] = {
-      {1, StatusCode::kInvalidArgument},  {2, StatusCode::kInvalidArgument}, {3, StatusCode::kInvalidArgument},
-      {4, StatusCode::kDataLoss},         {5, StatusCode::kUnsupported},     {6, StatusCode::kInvalidArgument},
+      {1, StatusCode::kInvalidArgument},    {2, StatusCode::kInvalidArgument},   {3, StatusCode::kInvalidArgument},
+      {4, StatusCode::kDataLoss},           {5, StatusCode::kUnsupported},       {6, StatusCode::kInvalidArgument},
       {7, StatusCode::kFailedPrecondition}, {8, StatusCode::kResourceExhausted}, {9, StatusCode::kUnavailable}};
   for (const auto& [code, expected] : cases) {
     start();

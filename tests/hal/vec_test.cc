@@ -47,7 +47,7 @@ TEST(Mat4, ProductWithAnyMatrixKeepsTheOrderOfRowAndColumn) {
   Mat4 a, b;
   for (int i = 0; i < 16; ++i) a.m[i] = static_cast<float>(i), b.m[i] = static_cast<float>(2 * i + 1);
   const Mat4 r = a * b;
-  EXPECT_EQ(r.m[1], 0.0f * 3 + 1 * 11 + 2 * 19 + 3 * 27);    // row 0, column 1
+  EXPECT_EQ(r.m[1], 0.0f * 3 + 1 * 11 + 2 * 19 + 3 * 27);       // row 0, column 1
   EXPECT_EQ(r.m[14], 12.0f * 5 + 13 * 13 + 14 * 21 + 15 * 29);  // row 3, column 2
 }
 
@@ -81,7 +81,8 @@ TEST(PackedNormal, StaysWithinATenthOfADegree) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 n = normalized({bell(random), bell(random), bell(random)});
     const Vec3 u = normalized(unpack(pack_normal(n)));
-    worst_degrees = std::max(worst_degrees, std::asin(std::min(1.0, static_cast<double>(length(cross(n, u))))) * 180 / 3.14159265358979);
+    worst_degrees = std::max(
+        worst_degrees, std::asin(std::min(1.0, static_cast<double>(length(cross(n, u))))) * 180 / 3.14159265358979);
   }
   EXPECT_LT(worst_degrees, 0.1);
   EXPECT_GT(worst_degrees, 0.05) << "half a step of 1/511 in each component is about 0.1 degrees";

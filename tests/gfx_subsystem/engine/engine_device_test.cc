@@ -1,5 +1,5 @@
-// The engine's register block, driven by registers and virtual time only. Offsets, resets and costs are literals here, so
-// that a slip in hal/registers/engine.h or cost_model.h shows.
+// The engine's register block, driven by registers and virtual time only. Offsets, resets and costs are literals here,
+// so that a slip in hal/registers/engine.h or cost_model.h shows.
 #include "gfx_subsystem/engine/engine_device.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ class TestMemory final : public BusMemory {
 
  private:
   std::span<std::byte> resolve(BusAddress address, std::size_t size) const {
-    if (address < kMemoryBase || address - kMemoryBase > bytes.size() || size > bytes.size() - (address - kMemoryBase)) return {};
+    if (address < kMemoryBase || address - kMemoryBase > bytes.size() || size > bytes.size() - (address - kMemoryBase))
+      return {};
     return {const_cast<std::byte*>(bytes.data()) + (address - kMemoryBase), size};
   }
   std::span<const std::byte> do_read_window(BusAddress a, std::size_t size) const override { return resolve(a, size); }
@@ -67,7 +68,8 @@ struct EngineDeviceTest : ::testing::Test {
 TEST_F(EngineDeviceTest, EveryRegisterHasTheResetOfThePage) {
   EXPECT_EQ(device.read(kId), 0x44335A55u);  // "UZ3D", first letter in the lowest byte
   EXPECT_EQ(device.read(kVer), 0x00010000u);
-  for (const std::uint32_t offset : {kCtrl, kStat, kLadr, kLwrd, kBell, kIntSt, kIntEn, kECode, kEWord, kCycL, kCycH, kFDraw, kFIn, kVtx})
+  for (const std::uint32_t offset :
+       {kCtrl, kStat, kLadr, kLwrd, kBell, kIntSt, kIntEn, kECode, kEWord, kCycL, kCycH, kFDraw, kFIn, kVtx})
     EXPECT_EQ(device.read(offset), 0u) << "offset " << offset;
   EXPECT_EQ(device.registers().mistake_count(), 0u);
   EXPECT_EQ(device.next_event(), EngineDevice::kNever);
@@ -146,7 +148,8 @@ TEST_F(EngineDeviceTest, HoursOfWorkDoNotOverflow) {
 }
 
 TEST_F(EngineDeviceTest, CountersOfTheLastListStandUntilTheNextEnds) {
-  engine.report.counters = {.command_words = 10, .vertices_transformed = 7, .primitives_in = 6, .faces_in = 5, .faces_drawn = 4};
+  engine.report.counters = {
+      .command_words = 10, .vertices_transformed = 7, .primitives_in = 6, .faces_in = 5, .faces_drawn = 4};
   ring();
   device.advance_to(device.next_event());
   EXPECT_EQ(device.read(kFDraw), 4u);
@@ -200,12 +203,12 @@ TEST_F(EngineDeviceTest, ListsThatCannotBeFetchedEndInTheirErrorCode) {
     std::uint32_t address, words, code;
   };
   const Case cases[] = {
-      {kMemoryBase + 2, 4, 1},           // no multiple of 4
-      {kMemoryBase, 0, 2},               // empty
-      {kMemoryBase, 65, 3},              // one word beyond memory
-      {kMemoryBase - 4, 4, 3},           // one word before it
-      {0, 4, 3},                         //
-      {0xFFFFFFFC, 0x00FFFFFF, 3},       // past the end of the address space
+      {kMemoryBase + 2, 4, 1},      // no multiple of 4
+      {kMemoryBase, 0, 2},          // empty
+      {kMemoryBase, 65, 3},         // one word beyond memory
+      {kMemoryBase - 4, 4, 3},      // one word before it
+      {0, 4, 3},                    //
+      {0xFFFFFFFC, 0x00FFFFFF, 3},  // past the end of the address space
   };
   for (const Case& c : cases) {
     ring(c.address, c.words);
@@ -224,7 +227,7 @@ TEST_F(EngineDeviceTest, ListsThatCannotBeFetchedEndInTheirErrorCode) {
 
 TEST_F(EngineDeviceTest, FaultsInTheListNameTheirKindAndWord) {
   const std::pair<StatusCode, std::uint32_t> cases[] = {
-      {StatusCode::kDataLoss, 4},          {StatusCode::kUnsupported, 5},       {StatusCode::kInvalidArgument, 6},
+      {StatusCode::kDataLoss, 4},           {StatusCode::kUnsupported, 5},       {StatusCode::kInvalidArgument, 6},
       {StatusCode::kFailedPrecondition, 7}, {StatusCode::kResourceExhausted, 8}, {StatusCode::kUnavailable, 9}};
   for (const auto& [status, code] : cases) {
     engine.report = {.status = {status, "fault", 17}, .counters = {.command_words = 17}};

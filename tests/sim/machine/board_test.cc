@@ -29,7 +29,8 @@ TEST(Board, SmallBoardIsTheOneOfTheContract) {
 TEST(Board, EveryBoardHoldsTwoPicturesAndDepthAndItsCommandList) {
   for (const BoardDescription& b : boards()) {
     const std::size_t pixels = std::size_t{b.width} * b.height;
-    const std::size_t need = pixels * (2 * command::bytes_per_pixel(b.pixel_format) + command::bytes_per_depth(b.depth_format));
+    const std::size_t need =
+        pixels * (2 * command::bytes_per_pixel(b.pixel_format) + command::bytes_per_depth(b.depth_format));
     EXPECT_LE(need, b.vram_bytes) << b.name;
     EXPECT_LE(std::size_t{b.command_list_words} * 4, b.ram_bytes / 8) << b.name << ": most of RAM is for the copy";
     EXPECT_LE(b.ram_bytes, kRamBytesMax) << b.name;
@@ -39,7 +40,8 @@ TEST(Board, EveryBoardHoldsTwoPicturesAndDepthAndItsCommandList) {
 
 TEST(Board, EveryBusFeedsOneLayerAtSixtyFrames) {
   for (const BoardDescription& b : boards())
-    EXPECT_GE(b.bus_bytes_per_second, std::uint64_t{60} * b.width * b.height * command::bytes_per_pixel(b.pixel_format)) << b.name;
+    EXPECT_GE(b.bus_bytes_per_second, std::uint64_t{60} * b.width * b.height * command::bytes_per_pixel(b.pixel_format))
+        << b.name;
 }
 
 TEST(AddressMap, LeavesEachMemoryTheRoomOfThePage) {

@@ -19,9 +19,7 @@ struct DriversOnMachineTest : ::testing::Test {
   Machine machine{small_board(), {}, engine, panel};
   EngineDriver driver{machine, kEngineBase, machine};
 
-  static std::span<std::uint32_t> words(Machine& m) {
-    return {reinterpret_cast<std::uint32_t*>(m.ram().data()), 64};
-  }
+  static std::span<std::uint32_t> words(Machine& m) { return {reinterpret_cast<std::uint32_t*>(m.ram().data()), 64}; }
 };
 
 TEST_F(DriversOnMachineTest, AListInRamIsFetchedByItsBusAddress) {

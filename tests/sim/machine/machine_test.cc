@@ -33,24 +33,24 @@ struct MachineTest : ::testing::Test {
     return m.now_cycles();
   }
 
-  /// 16 x 8 picture; lines of 24 pixels at 5 cycles each = 120 cycles; 12 lines; sync in line 9. Returns the start's time.
-  /// The first vertical blank begins 3 + 8 lines later, at 1320; then every 1440.
+  /// 16 x 8 picture; lines of 24 pixels at 5 cycles each = 120 cycles; 12 lines; sync in line 9. Returns the start's
+  /// time. The first vertical blank begins 3 + 8 lines later, at 1320; then every 1440.
   static std::uint64_t start_display(Machine& m) {
-    m.write32(kDisplay + 0x04, 23u << 16);                 // HTP
-    m.write32(kDisplay + 0x08, 15);                        // HDP
-    m.write32(kDisplay + 0x0C, 17u | 1u << 16 | 0u << 24); // HSP, HSW, VSW
-    m.write32(kDisplay + 0x10, 11u << 16);                 // VTR
-    m.write32(kDisplay + 0x14, 8u | 7u << 16);             // VSP, VDP
-    m.write32(kDisplay + 0x140, 0x00FF0001u);              // L0M: opaque XRGB8888
-    m.write32(kDisplay + 0x144, 64);                       // L0ST
-    m.write32(kDisplay + 0x148, 0x80000000u);              // L0DA0
-    m.write32(kDisplay + 0x154, 15u | 7u << 16);           // L0S
+    m.write32(kDisplay + 0x04, 23u << 16);                       // HTP
+    m.write32(kDisplay + 0x08, 15);                              // HDP
+    m.write32(kDisplay + 0x0C, 17u | 1u << 16 | 0u << 24);       // HSP, HSW, VSW
+    m.write32(kDisplay + 0x10, 11u << 16);                       // VTR
+    m.write32(kDisplay + 0x14, 8u | 7u << 16);                   // VSP, VDP
+    m.write32(kDisplay + 0x140, 0x00FF0001u);                    // L0M: opaque XRGB8888
+    m.write32(kDisplay + 0x144, 64);                             // L0ST
+    m.write32(kDisplay + 0x148, 0x80000000u);                    // L0DA0
+    m.write32(kDisplay + 0x154, 15u | 7u << 16);                 // L0S
     m.write32(kDisplay + 0x100, 1u << 31 | 1u << 16 | 4u << 8);  // DCM1: on, layer 0, divider 5
     return m.now_cycles();
   }
 };
 
-// ------------------------------------------------------------------------------------------------------- address map
+// ---- address map
 
 TEST_F(MachineTest, EveryDeviceAnswersAtItsAddress) {
   EXPECT_EQ(machine.read32(0xF0000000u), 0x44335A55u);
@@ -76,9 +76,11 @@ TEST_F(MachineTest, DevicesReportMistakesByRegisterAndAddress) {
   machine.read32(0xF0001FFCu);
   machine.write32(kEngineLwrd, 0xFF000001u);
   ASSERT_EQ(machine.guest_log().lines().size(), 3u);
-  EXPECT_EQ(machine.guest_log().lines()[0], "engine ID (0xF0000000): write of 0x00000001: write to a read-only register");
+  EXPECT_EQ(machine.guest_log().lines()[0],
+            "engine ID (0xF0000000): write of 0x00000001: write to a read-only register");
   EXPECT_EQ(machine.guest_log().lines()[1], "display (0xF0001FFC): read: no register at this offset");
-  EXPECT_EQ(machine.guest_log().lines()[2], "engine LWRD (0xF0000014): write of 0xFF000001: ones written to reserved bits");
+  EXPECT_EQ(machine.guest_log().lines()[2],
+            "engine LWRD (0xF0000014): write of 0xFF000001: ones written to reserved bits");
 }
 
 TEST_F(MachineTest, WhatTheModelLacksIsCountedApartFromMistakes) {
@@ -94,7 +96,7 @@ TEST_F(MachineTest, AFloodOfMistakesIsCountedButNotKept) {
   EXPECT_EQ(machine.guest_log().lines().size(), 64u);
 }
 
-// ------------------------------------------------------------------------------------------------------- engine and time
+// ---- engine and time
 
 TEST_F(MachineTest, EveryRegisterAccessTakesFortyClocks) {
   machine.read32(kEngineStat);
@@ -191,7 +193,7 @@ TEST_F(MachineTest, AHungEngineLeavesTheFirmwareToItsTimeout) {
   EXPECT_EQ(broken.read32(kEngineStat), 1u);
 }
 
-// ------------------------------------------------------------------------------------------------------------- display
+// ---- display
 
 TEST_F(MachineTest, VerticalBlankInterruptsAtItsCycleAndNotOneBefore) {
   machine.write32(kDisplayIntEn, 1);
@@ -250,7 +252,7 @@ TEST_F(MachineTest, ABusTooSlowRaisesTheDisplaysFault) {
   EXPECT_EQ(slow.read32(kDisplayIntSt) & 0xEu, 2u);
 }
 
-// --------------------------------------------------------------------------------------------------------- determinism
+// ---- determinism
 
 TEST_F(MachineTest, TwoRunsHaveEqualTimes) {
   const auto run = [] {

@@ -1,11 +1,11 @@
 // Registers of the 3D engine: one definition for the driver that writes them and the model that obeys them.
 //
-// A list is run by writing LADR and LWRD and then BELL. STAT.BUSY is set at once; when the list has been worked off BUSY
-// falls and INTST shows DONE, or ERR with its cause in ECODE and EWORD. The counters belong to the last list that ended
-// and keep their values while the next one runs.
+// A list is run by writing LADR and LWRD and then BELL. STAT.BUSY is set at once; when the list has been worked off,
+// BUSY falls and INTST shows DONE, or ERR with its cause in ECODE and EWORD. The counters belong to the last list that
+// ended and keep their values while the next one runs.
 //
-// Registers are 32-bit words; reserved bits read zero and must be written zero. RW read and write, RO read only, WO write
-// only (reads zero), W1C write one to clear.
+// Registers are 32-bit words; reserved bits read zero and must be written zero. RW read and write, RO read only, WO
+// write only (reads zero), W1C write one to clear.
 //
 //   offset  name   access reset       what
 //   0x000   ID     RO     0x44335A55  "UZ3D": tells a driver that a 3D engine is there

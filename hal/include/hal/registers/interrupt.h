@@ -1,8 +1,8 @@
 // Registers of the interrupt controller: bit n of each is the line of `Interrupt` n in hal/clock.h.
 //
 // A line that rises is latched in PEND whether enabled or not. It leaves PEND when acknowledged, or by itself when the
-// device withdraws it. An acknowledged line that stays high is pending again only after it has fallen and risen: a driver
-// that forgets to clear its device's flag waits in vain instead of spinning.
+// device withdraws it. An acknowledged line that stays high is pending again only after it has fallen and risen: a
+// driver that forgets to clear its device's flag waits in vain instead of spinning.
 //
 //   offset  name   access reset       what
 //   0x000   ID     RO     0x43495A55  "UZIC": tells a driver that an interrupt controller is there
