@@ -5,6 +5,65 @@
 #include "firmware/scene/trigonometry.h"
 
 namespace usuzumi::firmware {
+namespace {
+
+constexpr double kMargin = 1.04;  // air around the model
+
+struct Direction {
+  SinCos azimuth, elevation;
+};
+
+Direction direction_of(double azimuth_rad, double elevation_rad) {
+  constexpr double kSteepest = 89 * kPi / 180;
+  const double elevation = elevation_rad > kSteepest ? kSteepest : (elevation_rad < -kSteepest ? -kSteepest : elevation_rad);
+  return {sin_cos(azimuth_rad), sin_cos(elevation)};
+}
+
+/// The least distance from its middle at which a box lies inside the view. A corner at right r, height u and depth z towards
+/// the eye is inside from z + |r| / tan(half width of view) and z + |u| / tan(half height) on.
+double distance_to_fit(Vec3 half, const Direction& d, double tangent_x, double tangent_y) {
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double x = (corner & 1) != 0 ? double{half.x} : -double{half.x}, y = (corner & 2) != 0 ? double{half.y} : -double{half.y},
+                 z = (corner & 4) != 0 ? double{half.z} : -double{half.z};
+    const double right = x * d.azimuth.cos - z * d.azimuth.sin, ahead = x * d.azimuth.sin + z * d.azimuth.cos;
+    const double up = y * d.elevation.cos - ahead * d.elevation.sin, depth = ahead * d.elevation.cos + y * d.elevation.sin;
+    const double needed_x = depth + std::fabs(right) / tangent_x, needed_y = depth + std::fabs(up) / tangent_y;
+    if (needed_x > distance) distance = needed_x;
+    if (needed_y > distance) distance = needed_y;
+  }
+  return distance;
+}
+
+/// Distance for a picture of `aspect`, over `sides` directions from `azimuth_rad` on.
+double fitting_distance(const Bounds& bounds, double azimuth_rad, double elevation_rad, float fov_y_rad, float aspect, int sides) {
+  const Vec3 half = (bounds.high - bounds.low) * 0.5f;
+  const SinCos half_view = sin_cos(double{fov_y_rad} * 0.5);
+  const double tangent_y = half_view.sin / half_view.cos;
+  double distance = 0;
+  for (int i = 0; i < sides; ++i) {
+    const double d = distance_to_fit(half, direction_of(azimuth_rad + 2 * kPi * i / sides, elevation_rad), tangent_y * double{aspect}, tangent_y);
+    if (d > distance) distance = d;
+  }
+  return kMargin * distance;
+}
+
+Camera stand_off(const Bounds& bounds, double azimuth_rad, double elevation_rad, double fit) {
+  Camera camera;
+  const Direction d = direction_of(azimuth_rad, elevation_rad);
+  const double sphere = bounds.radius() > 0 ? double{bounds.radius()} : 1.0;
+  const double distance = fit > 0 ? fit : 2 * sphere;  // a model of one place
+  const Vec3 towards_eye{static_cast<float>(d.azimuth.sin * d.elevation.cos), static_cast<float>(d.elevation.sin),
+                         static_cast<float>(d.azimuth.cos * d.elevation.cos)};
+  camera.target = bounds.centre();
+  camera.eye = camera.target + towards_eye * static_cast<float>(distance);
+  const double near_distance = distance - sphere * 1.01, least_near = sphere * 0.01;
+  camera.near_distance = static_cast<float>(near_distance > least_near ? near_distance : least_near);
+  camera.far_distance = static_cast<float>(distance + sphere * 1.01);
+  return camera;
+}
+
+}  // namespace
 
 Status check(const Camera& camera) {
   const auto refuse = [](const char* message) { return Status{StatusCode::kInvalidArgument, message, 0}; };
@@ -46,24 +105,14 @@ Bounds bounds_of(const DrawingData& data) {
   return b;
 }
 
+Camera view_of(const Bounds& bounds, double azimuth_rad, double elevation_rad, float aspect) {
+  return stand_off(bounds, azimuth_rad, elevation_rad,
+                   fitting_distance(bounds, azimuth_rad, elevation_rad, Camera{}.fov_y_rad, aspect, 1));
+}
+
 Camera orbit(const Bounds& bounds, double azimuth_rad, double elevation_rad, float aspect) {
-  constexpr double kSteepest = 89 * kPi / 180;
-  const double elevation = elevation_rad > kSteepest ? kSteepest : (elevation_rad < -kSteepest ? -kSteepest : elevation_rad);
-  Camera camera;
-  const float radius = bounds.radius() > 0 ? bounds.radius() : 1.0f;
-  // A sphere of radius r fits a cone of half angle a from r / sin(a); across a narrow picture the cone is narrower.
-  const SinCos half = sin_cos(double{camera.fov_y_rad} * 0.5);
-  const double tangent = half.sin / half.cos * (aspect < 1 ? double{aspect} : 1.0);
-  const double distance = double{radius} * std::sqrt(1 + tangent * tangent) / tangent;
-  const SinCos around = sin_cos(azimuth_rad), above = sin_cos(elevation);
-  const Vec3 direction{static_cast<float>(around.sin * above.cos), static_cast<float>(above.sin), static_cast<float>(around.cos * above.cos)};
-  camera.target = bounds.centre();
-  camera.eye = camera.target + direction * static_cast<float>(distance);
-  camera.near_distance = static_cast<float>(distance) - radius * 1.01f;
-  const float least_near = radius * 0.01f;
-  if (camera.near_distance < least_near) camera.near_distance = least_near;
-  camera.far_distance = static_cast<float>(distance) + radius * 1.01f;
-  return camera;
+  constexpr int kSides = 64;  // from a fixed first one, so that the distance is the same all the way round
+  return stand_off(bounds, azimuth_rad, elevation_rad, fitting_distance(bounds, 0, elevation_rad, Camera{}.fov_y_rad, aspect, kSides));
 }
 
 }  // namespace usuzumi::firmware

@@ -76,15 +76,15 @@ class CameraPath {
 
   firmware::Camera at(std::uint32_t frame) const {
     if (!cameras_.empty()) return cameras_[std::min<std::size_t>(frame, cameras_.size() - 1)];
-    const double turn = frames_ > 0 ? 2 * firmware::kPi * frame / frames_ : 0;
-    return firmware::orbit(bounds_, kStandardAzimuth + turn, kStandardElevation, aspect_);
+    if (frames_ == 0) return firmware::view_of(bounds_, kStandardAzimuth, kStandardElevation, aspect_);
+    return firmware::orbit(bounds_, kStandardAzimuth + 2 * firmware::kPi * frame / frames_, kStandardElevation, aspect_);
   }
   float aspect() const { return aspect_; }
 
  private:
   firmware::Bounds bounds_;
   float aspect_;
-  std::uint32_t frames_;
+  std::uint32_t frames_;  // of a turn; 0: the camera stands
   std::vector<firmware::Camera> cameras_;
 };
 

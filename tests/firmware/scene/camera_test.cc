@@ -50,7 +50,7 @@ TEST(CameraTest, MapsNearFarAndEdgesOfTheViewToTheClipCube) {
   EXPECT_NEAR(projected(m, {1 + 10, 2, 5}).x, 1, 1e-5) << "twice as wide as high";
 }
 
-TEST(CameraTest, OrbitKeepsTheWholeSphereInThePicture) {
+TEST(CameraTest, OrbitKeepsTheWholeBoxInThePicture) {
   const Bounds bounds{{-3, -1, 2}, {5, 7, 4}};
   for (float aspect : {0.5f, 1.0f, 2.667f}) {
     for (int step = 0; step < 12; ++step) {
@@ -65,6 +65,26 @@ TEST(CameraTest, OrbitKeepsTheWholeSphereInThePicture) {
       }
     }
   }
+}
+
+TEST(CameraTest, ViewOfFillsThePictureWithALongModel) {
+  // A rod along x seen from the front: its ends lie 4 % inside the picture's edges.
+  const Bounds rod{{-10, -0.1f, -0.1f}, {10, 0.1f, 0.1f}};
+  const Mat4 m = model_to_clip(view_of(rod, 0, 0, 2), 2);
+  EXPECT_NEAR(projected(m, {10, 0, 0}).x, 1 / 1.04, 0.01);
+  EXPECT_NEAR(projected(m, {-10, 0, 0}).x, -1 / 1.04, 0.01);
+}
+
+TEST(CameraTest, OrbitKeepsItsDistance) {
+  const Bounds bounds{{-3, -1, 2}, {5, 7, 4}};
+  const float first = length(orbit(bounds, 0, 0.4, 2).eye - bounds.centre());
+  for (int step = 1; step < 12; ++step) EXPECT_NEAR(length(orbit(bounds, step * 0.37, 0.4, 2).eye - bounds.centre()), first, 1e-4);
+  EXPECT_GE(first, length(view_of(bounds, 0.37, 0.4, 2).eye - bounds.centre()));
+}
+
+TEST(CameraTest, OrbitOfASinglePlaceStillSees) {
+  const Camera camera = orbit(Bounds{{1, 2, 3}, {1, 2, 3}}, 1, 0.3, 1.5f);
+  EXPECT_TRUE(check(camera).ok());
 }
 
 TEST(CameraTest, RefusesWhatCannotSee) {
