@@ -18,8 +18,10 @@ constexpr std::uint32_t count_b(std::uint32_t mark) { return (mark >> 4) & kCoun
 // A face may turn by at most acos(0.2), about 78 degrees, in one collapse. Arbitrary.
 constexpr float kLeastCosineSquared = 0.2f * 0.2f;
 // Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is less
-// than 1/100 of that side. A face may become one only where it was no better before. Arbitrary.
+// than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of 48
+// sides) are made of slivers, and every collapse there changes some of them a little. Arbitrary.
 constexpr float kSliverSquared = 1e-4f;
+constexpr float kSliverWorseSquared = 0.25f;
 
 float larger(float a, float b) { return a > b ? a : b; }
 
@@ -229,7 +231,7 @@ bool CollapseRules::turns_a_face_at(std::uint32_t v, std::uint32_t other, Vec3 p
     const float side_after = longest_side_squared(u1, v1);
     if (squared_after < kSliverSquared * side_after * side_after) {
       const float side_before = longest_side_squared(u0, v0);
-      if (squared_after * (side_before * side_before) < squared_before * (side_after * side_after)) return true;
+      if (squared_after * (side_before * side_before) < kSliverWorseSquared * squared_before * (side_after * side_after)) return true;
     }
   }
   return false;
