@@ -26,7 +26,7 @@ std::optional<Rectangle> parse_rectangle(std::string_view text);
 struct CompareOptions {
   std::uint32_t max_diff = 0;      // a pixel is the same when no channel differs by more
   std::uint64_t max_pixels = 0;    // the pictures are the same when no more pixels differ
-  std::vector<Rectangle> ignore;   // not looked at
+  std::vector<Rectangle> ignore{}; // not looked at
 };
 
 enum class CompareResult { kSame, kDiffer, kCannotCompare };
