@@ -33,6 +33,12 @@ Transform to_transform(const aiMatrix4x4& m) {
   return t;
 }
 
+/// Names of the file's. What assimp puts where a file has none looks like "<OFFRoot>".
+std::string real_name(const aiString& name) {
+  const std::string text = name.C_Str();
+  return text.size() >= 2 && text.front() == '<' && text.back() == '>' ? "" : text;
+}
+
 Vec3 to_vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 class AssimpScene {
@@ -72,8 +78,8 @@ class AssimpScene {
     if (index >= scene_.mNumMeshes) refuse(fmt::format("a node refers to mesh {} of {}", index, scene_.mNumMeshes));
     const aiMesh& source = *scene_.mMeshes[index];
     Mesh mesh;
-    mesh.node_name = node.mName.C_Str();
-    const std::string mesh_name = source.mName.C_Str();
+    mesh.node_name = real_name(node.mName);
+    const std::string mesh_name = real_name(source.mName);
     mesh.mesh_name = !mesh_name.empty() ? mesh_name : (!mesh.node_name.empty() ? mesh.node_name : stem_);
     read_faces(source, mesh);
     if (mesh.indices.empty()) return;
@@ -147,6 +153,7 @@ class AssimpScene {
 
 Model import_assimp(const fs::path& path) {
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // names as people gave them, not identifiers
   // assimp's own validation would refuse a whole file for one empty mesh; what it checks is checked here.
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   if (scene == nullptr) {
