@@ -1,0 +1,150 @@
+#include <set>
+
+#include "tests/sim/cli/command.h"
+
+namespace usuzumi {
+namespace {
+
+using testing::expect_one_line_error;
+using testing::Ran;
+
+class RunCommand : public testing::CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    write_hills("hills.obj", 20);
+    ASSERT_EQ(usuzumi("pack hills.obj -o hills.rom --default-level 3").exit_code, 0);
+  }
+  nlohmann::json stats(const std::string& options) {
+    const Ran ran = usuzumi("run hills.rom --size 160x96 --stats stats.json " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return json_file("stats.json");
+  }
+};
+
+TEST_F(RunCommand, WritesAPictureAndStatisticsOfEveryFrame) {
+  const auto report = stats("--frames 3 --orbit --out pictures");
+  ASSERT_EQ(report["frames"].size(), 3u);
+  std::set<std::string> crcs;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& f = report["frames"][i];
+    EXPECT_TRUE(exists("pictures/frame-000" + std::to_string(i) + ".png"));
+    EXPECT_EQ(f["meshes_in"], 1);
+    EXPECT_EQ(f["meshes_out"], 1);
+    EXPECT_EQ(f["faces_in"], 800);
+    EXPECT_EQ(f["faces_thinned"], 400) << "half, where nobody gives a quota";
+    EXPECT_LE(f["faces_drawn"].get<int>(), 400);
+    EXPECT_GT(f["faces_drawn"].get<int>(), 0);
+    EXPECT_GT(f["engine_cycles"].get<int>(), 0);
+    EXPECT_GT(f["draw_ms"].get<double>(), 0);
+    EXPECT_NEAR(f["scanout_ms"].get<double>(), 1000.0 / 60, 0.5);
+    EXPECT_EQ(f["thinning"]["meshes_collapsed"], i == 0 ? 1 : 0) << "what nothing changed is not thinned again";
+    crcs.insert(f["crc32"].get<std::string>());
+  }
+  EXPECT_GT(report["frames"][0]["thin_ms"].get<double>(), report["frames"][1]["thin_ms"].get<double>());
+  EXPECT_EQ(crcs.size(), 3u) << "the model turns";
+  EXPECT_GT(report["ram_peak_bytes"].get<int>(), 0);
+  EXPECT_EQ(report["rom_bytes"], std::filesystem::file_size(folder() / "hills.rom"));
+  EXPECT_EQ(report["vram_bytes"], 160 * 96 * 4 * 3) << "two pictures and depth";
+}
+
+TEST_F(RunCommand, ShowsTheSamePictureForAnyNumberOfThreadsAndAtEveryRun) {
+  const auto once = stats("--frames 2 --orbit");
+  for (const char* options : {"--frames 2 --orbit", "--frames 2 --orbit --threads 2", "--frames 2 --orbit --threads 3"}) {
+    const auto again = stats(options);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const char* key : {"crc32", "engine_cycles", "thin_ms", "draw_ms", "scanout_ms", "faces_drawn"})
+        EXPECT_EQ(again["frames"][i][key], once["frames"][i][key]) << options << " " << key;
+  }
+}
+
+TEST_F(RunCommand, TheFirstFrameOfTwoRunsIsTheSamePng) {
+  ASSERT_EQ(usuzumi("run hills.rom --size 160x96 --out a").exit_code, 0);
+  ASSERT_EQ(usuzumi("run hills.rom --size 160x96 --out b").exit_code, 0);
+  EXPECT_EQ(usuzumi("compare a/frame-0000.png b/frame-0000.png").exit_code, 0);
+  ASSERT_EQ(usuzumi("run hills.rom --size 160x96 --thin off --out c").exit_code, 0);
+  EXPECT_EQ(usuzumi("compare a/frame-0000.png c/frame-0000.png").exit_code, 1);
+}
+
+TEST_F(RunCommand, OsmesaDrawsNearlyTheSame) {
+  ASSERT_EQ(usuzumi("run hills.rom --size 160x96 --out soft").exit_code, 0);
+  ASSERT_EQ(usuzumi("run hills.rom --size 160x96 --engine osmesa --out osmesa").exit_code, 0);
+  const Ran ran = usuzumi("compare soft/frame-0000.png osmesa/frame-0000.png --max-diff 2 --max-pixels 20");
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+}
+
+TEST_F(RunCommand, QuotasAndPoliciesRule) {
+  EXPECT_EQ(stats("--thin off")["frames"][0]["faces_thinned"], 800);
+  EXPECT_LE(stats("--quota 10%")["frames"][0]["faces_thinned"].get<int>(), 80);
+  EXPECT_LE(stats("--quota 123")["frames"][0]["faces_thinned"].get<int>(), 123);
+  EXPECT_EQ(stats("--policy below-area:1")["frames"][0]["faces_thinned"], 800);
+  EXPECT_EQ(stats("--policy 3=chosen:hills")["frames"][0]["faces_thinned"], 400);
+  EXPECT_EQ(stats("--policy random:1%")["frames"][0]["faces_thinned"], 800);
+}
+
+TEST_F(RunCommand, TakesCamerasFromAFile) {
+  write("path.json", R"({"frames": [{"eye": [10, 30, 40], "target": [10, 0, 10]}, {"eye": [10, 40, 40], "target": [10, 0, 10], "fov_y_deg": 60}]})");
+  const auto report = stats("--frames 3 --camera path.json");
+  EXPECT_NE(report["frames"][0]["crc32"], report["frames"][1]["crc32"]);
+  EXPECT_EQ(report["frames"][1]["crc32"], report["frames"][2]["crc32"]) << "the last camera holds on";
+}
+
+TEST_F(RunCommand, RunsOnTheSmallBoardAtItsPanelsSize) {
+  ASSERT_EQ(usuzumi("run hills.rom --board small --stats stats.json").exit_code, 0);
+  const auto report = json_file("stats.json");
+  EXPECT_EQ(report["width"], 480);
+  EXPECT_EQ(report["height"], 272);
+  EXPECT_LE(report["vram_bytes"].get<int>(), 1 << 20);
+  EXPECT_LE(report["ram_peak_bytes"].get<int>(), 2 << 20);
+}
+
+TEST_F(RunCommand, AnswersBadInputWithOneLine) {
+  expect_one_line_error(usuzumi("run nothing.rom"), 3, "nothing.rom");
+  expect_one_line_error(usuzumi("run hills.obj"), 3, "hills.obj");
+  expect_one_line_error(usuzumi("run hills.rom --size 12"), 2, "WIDTHxHEIGHT");
+  expect_one_line_error(usuzumi("run hills.rom --size 8000x10"), 2, "--size 8000x10");
+  expect_one_line_error(usuzumi("run hills.rom --frames 0"), 2, "frames");
+  expect_one_line_error(usuzumi("run hills.rom --engine voodoo"), 2, "voodoo");
+  expect_one_line_error(usuzumi("run hills.rom --quota 0"), 2, "--quota 0");
+  expect_one_line_error(usuzumi("run hills.rom --policy never"), 2, "--policy never");
+  expect_one_line_error(usuzumi("run hills.rom --policy chosen:valleys"), 2, "hills");
+  expect_one_line_error(usuzumi("run hills.rom --policy random:half"), 2, "random");
+  expect_one_line_error(usuzumi("run hills.rom --thin off --quota 50%"), 2, "--thin off");
+  expect_one_line_error(usuzumi("run hills.rom --orbit --camera path.json"), 2, "--orbit");
+  expect_one_line_error(usuzumi("run hills.rom --camera nothing.json"), 3, "nothing.json");
+  expect_one_line_error(usuzumi("run hills.rom --board small --size 1920x720"), 5, "VRAM");
+  expect_one_line_error(usuzumi("run hills.rom --stats missing/stats.json"), 4, "missing");
+  expect_one_line_error(usuzumi("run hills.rom --out /dev/null/pictures"), 4, "/dev/null/pictures");
+  write("path.json", R"({"frames": [{"eye": [0, 0, 1], "target": [0, 0, 1]}]})");
+  expect_one_line_error(usuzumi("run hills.rom --camera path.json"), 3, "frame 0");
+  write("path.json", R"({"eyes": 3})");
+  expect_one_line_error(usuzumi("run hills.rom --camera path.json"), 3, "eyes");
+}
+
+TEST_F(RunCommand, SaysWhatDidNotFitTheSmallBoard) {
+  write_hills("big.obj", 200);  // 80,000 faces: 1.4 MB as they are, beyond 2 MiB with the simplifier's working space
+  ASSERT_EQ(usuzumi("pack big.obj -o must.rom --default-level 1").exit_code, 0);
+  ASSERT_EQ(usuzumi("pack big.obj -o may.rom --default-level 3").exit_code, 0);
+  const Ran may = usuzumi("run may.rom --board small --stats stats.json");
+  EXPECT_EQ(may.exit_code, 0) << may.err;
+  const auto thinning = json_file("stats.json")["frames"][0]["thinning"];
+  EXPECT_EQ(thinning["meshes_unthinned"].get<int>() + thinning["meshes_dropped"].get<int>(), 1);
+  EXPECT_NE(may.out.find("RAM was short"), std::string::npos);
+  write_hills("huge.obj", 330);  // 217,800 faces: no room for them at all
+  ASSERT_EQ(usuzumi("pack huge.obj -o huge.rom --default-level 1").exit_code, 0);
+  expect_one_line_error(usuzumi("run huge.rom --board small"), 5, "RAM");
+}
+
+TEST_F(RunCommand, HelpShowsAnExampleEverywhere) {
+  for (const char* command : {"", "pack ", "inspect ", "thin ", "run ", "compare "}) {
+    const Ran ran = usuzumi(std::string(command) + "--help");
+    EXPECT_EQ(ran.exit_code, 0);
+    EXPECT_NE(ran.out.find("Example"), std::string::npos) << command;
+  }
+  EXPECT_NE(usuzumi("--help").out.find("Exit codes"), std::string::npos);
+  expect_one_line_error(usuzumi("paint"), 2, "paint");
+  expect_one_line_error(usuzumi(""), 2, "A subcommand is required");
+}
+
+}  // namespace
+}  // namespace usuzumi
