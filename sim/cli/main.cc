@@ -1,5 +1,8 @@
 // The usuzumi command: pack, inspect, thin, run, compare.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <string>
 
 #include "sim/cli/compare_command.h"
@@ -21,6 +24,10 @@ int main(int argc, char** argv) {
   add_thin_command(app, exit_code);
   add_run_command(app, exit_code);
   add_compare_command(app, exit_code);
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", argv[1]);
+    return exit_status(ExitCode::kUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {
@@ -30,7 +37,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    fprintf(stderr, "usuzumi: %s; see usuzumi --help\n", e.what());
+    fmt::print(stderr, "usuzumi: {}; see usuzumi --help\n", e.what());
     return exit_status(ExitCode::kUsage);
   }
   return exit_code;
