@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   add_thin_command(app, exit_code);
   add_run_command(app, exit_code);
   add_compare_command(app, exit_code);
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](CLI::App* command) { return command->check_name(argv[1]); }).empty()) {
     fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", argv[1]);
     return exit_status(ExitCode::kUsage);
   }
