@@ -37,8 +37,8 @@ inline constexpr DisplayMode kMode1280x480{1280, 480, 40, 48, 40, 10, 2, 33, 9};
 inline constexpr DisplayMode kMode1920x720{1920, 720, 48, 32, 80, 36, 10, 35, 4}; // 100 MHz, 60.02 Hz
 
 /// A legal mode for any size from 16 x 16 to 4096 x 4096: one of the above when the size is theirs; otherwise the slowest
-/// pixel clock that reaches 60 frames a second, with the vertical blank stretched to meet it (between 59.5 and 60.5 Hz).
-/// Pictures too large for 400 MHz at 60 Hz get 400 MHz and what refresh that gives (4096 x 4096: 23.4 Hz).
+/// pixel clock that reaches 60 frames a second, with the back porches stretched to meet it (60 to 60.2 Hz). Pictures too large
+/// for 400 MHz at 60 Hz get 400 MHz and what refresh that gives (4096 x 4096: 23.3 Hz).
 /// kInvalidArgument for sizes out of range.
 Result<DisplayMode> make_display_mode(std::uint32_t width, std::uint32_t height);
 
