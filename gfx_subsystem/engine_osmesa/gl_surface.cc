@@ -9,14 +9,15 @@ namespace {
 using command::DepthFormat;
 using command::PixelFormat;
 
-// What glTexImage2D and glReadPixels call our formats. Each moves bits unchanged: bits 31-24 of an XRGB8888 pixel travel as
-// alpha, those of a 24-bit depth as stencil.
+// What glTexImage2D and glReadPixels call our formats. Bits 31-24 of an XRGB8888 pixel travel as alpha, those of a 24-bit
+// depth as stencil, all unchanged. RGB565 is drawn in 16 bits per channel and rounded to the nearest step when stored:
+// llvmpipe's own GL_RGB565 rounds to 8 bits and then cuts, up to a whole step off.
 struct TransferFormat {
   GLint internal;
   GLenum format, type;
 };
 constexpr TransferFormat transfer(PixelFormat f) {
-  return f == PixelFormat::kRgb565 ? TransferFormat{GL_RGB565, GL_RGB, GL_UNSIGNED_SHORT_5_6_5}
+  return f == PixelFormat::kRgb565 ? TransferFormat{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT}
                                    : TransferFormat{GL_RGBA8, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV};
 }
 constexpr TransferFormat transfer(DepthFormat f) {
@@ -25,6 +26,10 @@ constexpr TransferFormat transfer(DepthFormat f) {
 }
 
 constexpr std::uint32_t kDepth24Mask = 0x00FFFFFFu;
+
+// A channel of `max` + 1 steps to and from 16 bits, each to the nearest: there and back gives the same.
+constexpr std::uint16_t to_16_bits(std::uint32_t v, std::uint32_t max) { return static_cast<std::uint16_t>((v * 65535 + max / 2) / max); }
+constexpr std::uint32_t from_16_bits(std::uint32_t v, std::uint32_t max) { return (v * max + 32767) / 65535; }
 
 // Rows in VRAM are a whole number of pixels apart: strides are multiples of 4 bytes and pixels 2 or 4.
 GLint row_pixels(std::uint32_t stride_bytes, std::uint32_t pixel_bytes) { return static_cast<GLint>(stride_bytes / pixel_bytes); }
@@ -108,9 +113,12 @@ void GlSurface::delete_textures() {
 
 void GlSurface::prepare_colour(bool whole) {
   if (!colour_.loaded && !whole) {
-    const std::uint32_t pixel_bytes = command::bytes_per_pixel(colour_target_.format);
-    upload(colour_texture_, transfer(colour_target_.format), row_pixels(colour_target_.stride_bytes, pixel_bytes), colour_target_.width,
-           colour_target_.height, colour_memory_.data());
+    if (colour_target_.format == PixelFormat::kRgb565) {
+      load_rgb565();
+    } else {
+      upload(colour_texture_, transfer(PixelFormat::kXrgb8888), row_pixels(colour_target_.stride_bytes, 4), colour_target_.width,
+             colour_target_.height, colour_memory_.data());
+    }
   }
   colour_ = {true, true};
 }
@@ -130,9 +138,12 @@ void GlSurface::prepare_depth(bool whole) {
 void GlSurface::store() {
   if (colour_memory_.empty()) return;
   if (colour_.changed) {
-    const std::uint32_t pixel_bytes = command::bytes_per_pixel(colour_target_.format);
-    download(transfer(colour_target_.format), row_pixels(colour_target_.stride_bytes, pixel_bytes), colour_target_.width,
-             colour_target_.height, colour_memory_.data());
+    if (colour_target_.format == PixelFormat::kRgb565) {
+      store_rgb565();
+    } else {
+      download(transfer(PixelFormat::kXrgb8888), row_pixels(colour_target_.stride_bytes, 4), colour_target_.width,
+               colour_target_.height, colour_memory_.data());
+    }
   }
   if (depth_.changed) {
     if (depth_target_.format == DepthFormat::kUnorm24) {
@@ -144,6 +155,37 @@ void GlSurface::store() {
   }
   colour_ = depth_ = {};
   colour_memory_ = depth_memory_ = {};
+}
+
+void GlSurface::load_rgb565() {
+  channels_.resize(std::size_t{colour_target_.width} * colour_target_.height * 4);
+  std::uint16_t* channel = channels_.data();
+  for (std::uint32_t y = 0; y < colour_target_.height; ++y) {
+    const std::byte* row = colour_memory_.data() + std::size_t{colour_target_.stride_bytes} * y;
+    for (std::uint32_t x = 0; x < colour_target_.width; ++x) {
+      std::uint16_t v;
+      std::memcpy(&v, row + std::size_t{x} * 2, 2);
+      *channel++ = to_16_bits(v >> 11, 31);
+      *channel++ = to_16_bits((v >> 5) & 0x3Fu, 63);
+      *channel++ = to_16_bits(v & 0x1Fu, 31);
+      *channel++ = 0xFFFF;
+    }
+  }
+  upload(colour_texture_, transfer(PixelFormat::kRgb565), 0, colour_target_.width, colour_target_.height, channels_.data());
+}
+
+void GlSurface::store_rgb565() {
+  channels_.resize(std::size_t{colour_target_.width} * colour_target_.height * 4);
+  download(transfer(PixelFormat::kRgb565), 0, colour_target_.width, colour_target_.height, channels_.data());
+  const std::uint16_t* channel = channels_.data();
+  for (std::uint32_t y = 0; y < colour_target_.height; ++y) {
+    std::byte* row = colour_memory_.data() + std::size_t{colour_target_.stride_bytes} * y;
+    for (std::uint32_t x = 0; x < colour_target_.width; ++x, channel += 4) {
+      const auto v = static_cast<std::uint16_t>(from_16_bits(channel[0], 31) << 11 | from_16_bits(channel[1], 63) << 5 |
+                                                from_16_bits(channel[2], 31));
+      std::memcpy(row + std::size_t{x} * 2, &v, 2);
+    }
+  }
 }
 
 // VRAM has the depth in bits 23-0; OpenGL has it in bits 31-8 and the stencil below.

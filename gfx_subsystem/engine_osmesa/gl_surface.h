@@ -38,6 +38,8 @@ class GlSurface {
   bool same_targets(const EngineState& state) const;
   Status allocate_textures();
   void delete_textures();
+  void load_rgb565();
+  void store_rgb565();
   void load_depth24();
   void store_depth24();
 
@@ -50,7 +52,8 @@ class GlSurface {
   command::SetDepthTarget depth_target_;
   std::span<std::byte> colour_memory_, depth_memory_;  // empty between lists
   Plane colour_, depth_;
-  std::vector<std::uint32_t> depth_words_;
+  std::vector<std::uint16_t> channels_;     // RGB565 on its way, 4 per pixel
+  std::vector<std::uint32_t> depth_words_;  // 24-bit depths on their way
 };
 
 }  // namespace usuzumi::gfx

@@ -1,74 +1,84 @@
 // Makes today's pictures of the software engine the goldens, and says what that changes. Run by approve.sh.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
-#include "gfx_subsystem/engine_soft/soft_engine.h"
-#include "tests/golden/golden_check.h"
+#include "sim/image/compare.h"
+#include "sim/image/png.h"
 #include "tests/golden/golden_store.h"
-#include "tests/golden/golden_png.h"
+#include "tests/support/scene.h"
+#include "tests/support/scene_engines.h"
 
 namespace usuzumi::golden {
 namespace {
 
-bool chosen(std::string_view scene, int argc, char** argv) {
-  if (argc == 1) return true;
-  for (int i = 1; i < argc; ++i)
-    if (scene == argv[i]) return true;
-  return false;
-}
-
-void tell_change(const Store& store, const scenes::Scene& scene, const RgbPicture& picture, std::uint32_t crc) {
+void tell_change(const Store& store, const scenes::Scene& scene, const sim::Image& picture, std::uint32_t crc) {
   const Entry* old = store.find(scene.name);
   if (old == nullptr) {
     std::printf("new      %-24s %08x\n", scene.name, crc);
     return;
   }
-  std::printf("changed  %-24s %08x -> %08x", scene.name, old->crc32, crc);
-  if (std::filesystem::exists(store.picture_path(scene.name))) {
-    const RgbPicture before = read_png(store.picture_path(scene.name));
-    if (before.width == picture.width && before.height == picture.height) {
-      const Difference d = compare_pictures(before, picture);
-      if (d.pixels > 0) std::printf(", %zu pixels, by up to %d, first at (%u, %u)", d.pixels, d.worst, d.first_x, d.first_y);
-    } else {
-      std::printf(", another size");
-    }
-  }
-  std::printf("\n");
+  std::printf("changed  %-24s %08x -> %08x\n", scene.name, old->crc32, crc);
+  if (std::filesystem::exists(store.picture_path(scene.name)))
+    std::printf("%s", sim::report_text(sim::compare_images(sim::read_png(store.picture_path(scene.name)), picture)).c_str());
 }
 
-bool up_to_date(const Store& store, const scenes::Scene& scene, const RgbPicture& picture) {
+bool up_to_date(const Store& store, const scenes::Scene& scene, const sim::Image& picture) {
   const Entry* entry = store.find(scene.name);
-  return entry != nullptr && entry->note == scene.note && entry->crc32 == scenes::picture_crc32(picture) &&
-         std::filesystem::exists(store.picture_path(scene.name)) && read_png(store.picture_path(scene.name)) == picture;
+  return entry != nullptr && entry->note == scene.note && entry->crc32 == sim::picture_crc32(picture) &&
+         std::filesystem::exists(store.picture_path(scene.name)) && sim::read_png(store.picture_path(scene.name)) == picture;
 }
 
-int approve(int argc, char** argv) {
+void approve_scene(Store& store, const scenes::Scene& scene, gfx::Engine& engine) {
+  const scenes::SceneDrawing drawing = scenes::draw_scene(scene, engine);
+  if (!drawing.status.ok()) throw std::runtime_error(std::string(scene.name) + ": not approved: " + drawing.status.message);
+  if (drawing.strayed) throw std::runtime_error(std::string(scene.name) + ": not approved: the engine wrote outside its target");
+  if (up_to_date(store, scene, drawing.picture)) return;
+  const std::uint32_t crc = sim::picture_crc32(drawing.picture);
+  tell_change(store, scene, drawing.picture, crc);
+  store.put({scene.name, drawing.picture.width, drawing.picture.height, crc, scene.note}, drawing.picture);
+}
+
+// Goldens of scenes that are no more.
+void remove_stale(Store& store) {
+  std::set<std::string> stale;
+  for (const Entry& entry : store.entries()) stale.insert(entry.scene);
+  for (const std::string& picture : store.pictures_on_disk()) stale.insert(picture);
+  for (const scenes::Scene& scene : scenes::all_scenes()) stale.erase(scene.name);
+  for (const std::string& name : stale) {
+    std::printf("removed  %s\n", name.c_str());
+    store.remove(name);
+  }
+}
+
+void approve(std::span<char*> names) {
+  for (const std::string_view name : names) {
+    const auto all = scenes::all_scenes();
+    if (std::none_of(all.begin(), all.end(), [&](const scenes::Scene& s) { return s.name == name; }))
+      throw std::runtime_error(std::string(name) + ": is no scene; scenes are named as their PNGs in tests/golden, without .png");
+  }
   Store store(Store::source_folder());
-  SoftEngineUnderTest engine;
-  int same = 0, asked = 0;
-  for (const scenes::Scene& scene : scenes::all_scenes()) {
-    if (!chosen(scene.name, argc, argv)) continue;
-    ++asked;
-    const scenes::SceneDrawing drawing = scenes::draw_scene(scene, engine.engine());
-    if (!drawing.status.ok() || drawing.strayed) {
-      std::fprintf(stderr, "%s: not approved: %s\n", scene.name, drawing.status.ok() ? "engine wrote outside its target" : drawing.status.message);
-      return 1;
-    }
-    if (up_to_date(store, scene, drawing.picture)) {
-      ++same;
-      continue;
-    }
-    const std::uint32_t crc = scenes::picture_crc32(drawing.picture);
-    tell_change(store, scene, drawing.picture, crc);
-    store.put({scene.name, drawing.picture.width, drawing.picture.height, crc, scene.note}, drawing.picture);
-  }
-  if (argc > 1 && asked != argc - 1) {
-    std::fprintf(stderr, "a name given is no scene; scenes are named as their PNGs in tests/golden, without .png\n");
-    return 1;
-  }
-  return 0;
+  scenes::SoftEngineKit kit;
+  for (const scenes::Scene& scene : scenes::all_scenes())
+    if (names.empty() || std::find(names.begin(), names.end(), std::string_view(scene.name)) != names.end()) approve_scene(store, scene, kit.engine());
+  if (names.empty()) remove_stale(store);
+  std::printf("%zu goldens in %s; what is not listed above is as it was\n", store.entries().size(), Store::source_folder().c_str());
 }
 
 }  // namespace
 }  // namespace usuzumi::golden
+
+int main(int argc, char** argv) {
+  try {
+    usuzumi::golden::approve(std::span<char*>(argv, static_cast<std::size_t>(argc)).subspan(1));
+    return 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

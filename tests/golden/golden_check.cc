@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
-#include "tests/golden/golden_png.h"
+#include "sim/image/compare.h"
+#include "sim/image/png.h"
 
 namespace usuzumi::golden {
 namespace {
@@ -16,91 +15,80 @@ std::string hex8(std::uint32_t v) {
   return text;
 }
 
-std::string colour_text(const std::uint8_t* p) {
-  char text[16];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", p[0], p[1], p[2]);
-  return text;
-}
+std::string colour_text(std::uint32_t xrgb) { return "#" + hex8(xrgb).substr(2); }
 
-std::string size_text(const RgbPicture& p) { return std::to_string(p.width) + " x " + std::to_string(p.height); }
+std::string size_text(const sim::Image& p) { return std::to_string(p.width) + " x " + std::to_string(p.height); }
 
-int channel_distance(const std::uint8_t* a, const std::uint8_t* b) {
-  int worst = 0;
-  for (int i = 0; i < 3; ++i) worst = std::max(worst, std::abs(int{a[i]} - int{b[i]}));
+std::uint32_t channel_distance(std::uint32_t a, std::uint32_t b) {
+  std::uint32_t worst = 0;
+  for (unsigned shift = 0; shift < 24; shift += 8) {
+    const std::uint32_t p = (a >> shift) & 0xFF, q = (b >> shift) & 0xFF;
+    worst = std::max(worst, p > q ? p - q : q - p);
+  }
   return worst;
 }
 
-bool same_size(const RgbPicture& a, const RgbPicture& b) { return a.width == b.width && a.height == b.height; }
+// Where a failed scene's pictures go.
+struct FailureFiles {
+  std::filesystem::path folder;
+  std::string scene;
+  std::filesystem::path actual() const { return folder / (scene + ".actual.png"); }
+  std::filesystem::path expected() const { return folder / (scene + ".expected.png"); }
+  std::filesystem::path difference() const { return folder / (scene + ".difference.png"); }
+};
 
-std::string file_list(const std::filesystem::path& folder, const std::string& scene) {
-  return "\n  actual:     " + (folder / (scene + ".actual.png")).string() + "\n  expected:   " + (folder / (scene + ".expected.png")).string() +
-         "\n  difference: " + (folder / (scene + ".difference.png")).string();
+// What is wrong with the golden itself; empty when nothing is.
+std::string golden_fault(const Store& store, const Entry* entry, const std::string& scene, const sim::Image& actual) {
+  if (entry == nullptr) return "has no golden";
+  const std::filesystem::path path = store.picture_path(scene);
+  if (!std::filesystem::exists(path)) return "golden has no PNG: " + path.string();
+  const sim::Image expected = sim::read_png(path);
+  if (sim::picture_crc32(expected) != entry->crc32)
+    return "manifest says CRC-32 " + hex8(entry->crc32) + " but its own PNG has " + hex8(sim::picture_crc32(expected));
+  if (expected.width != actual.width || expected.height != actual.height) return "is " + size_text(actual) + ", golden is " + size_text(expected);
+  if (entry->width != actual.width || entry->height != actual.height) return "manifest gives another size than its PNG";
+  return {};
 }
 
 }  // namespace
 
-Difference compare_pictures(const RgbPicture& expected, const RgbPicture& actual) {
-  Difference difference;
-  for (std::uint32_t y = 0; y < expected.height; ++y) {
-    for (std::uint32_t x = 0; x < expected.width; ++x) {
-      const int distance = channel_distance(expected.pixel(x, y), actual.pixel(x, y));
-      if (distance == 0) continue;
-      if (difference.pixels++ == 0) {
-        difference.first_x = x;
-        difference.first_y = y;
-      }
-      difference.worst = std::max(difference.worst, distance);
-    }
-  }
-  return difference;
-}
-
-RgbPicture difference_picture(const RgbPicture& expected, const RgbPicture& actual) {
-  RgbPicture picture{expected.width, expected.height, {}};
-  for (std::size_t i = 0; i < expected.rgb.size(); i += 3) {
-    const std::uint8_t *a = &expected.rgb[i], *b = &actual.rgb[i];
-    const bool same = std::memcmp(a, b, 3) == 0;
-    for (int c = 0; c < 3; ++c) {
-      const int distance = std::abs(int{a[c]} - int{b[c]});
-      picture.rgb.push_back(static_cast<std::uint8_t>(same ? a[c] / 8 : (distance == 0 ? 0 : std::min(255, 64 + distance))));
-    }
-  }
-  return picture;
-}
-
-Verdict check_golden(const Store& store, const std::string& scene, const RgbPicture& actual, const std::filesystem::path& failures) {
-  std::filesystem::create_directories(failures);
-  const std::uint32_t crc = scenes::picture_crc32(actual);
-  const auto fail = [&](const std::string& reason) {
-    write_png(failures / (scene + ".actual.png"), actual);
-    return Verdict{false, scene + ": " + reason + "\n  CRC-32 now: " + hex8(crc) +
-                              "\n  if the new picture is right: bash tests/golden/approve.sh " + scene};
-  };
-  const std::string actual_only = "\n  actual: " + (failures / (scene + ".actual.png")).string();
+Verdict check_golden(const Store& store, const std::string& scene, const sim::Image& actual, const std::filesystem::path& failures) {
+  const FailureFiles files{failures, scene};
   const Entry* entry = store.find(scene);
-  if (entry == nullptr) return fail("has no golden" + actual_only);
-  if (!std::filesystem::exists(store.picture_path(scene))) return fail("golden has no PNG: " + store.picture_path(scene).string() + actual_only);
-  const RgbPicture expected = read_png(store.picture_path(scene));
-  if (scenes::picture_crc32(expected) != entry->crc32)
-    return fail("manifest says CRC-32 " + hex8(entry->crc32) + " but its own PNG has " + hex8(scenes::picture_crc32(expected)) + actual_only);
-  if (!same_size(expected, actual)) return fail("is " + size_text(actual) + ", golden is " + size_text(expected) + actual_only);
-  if (entry->width != actual.width || entry->height != actual.height) return fail("manifest gives another size than its PNG" + actual_only);
-  if (expected == actual) return {};
-  write_png(failures / (scene + ".expected.png"), expected);
-  write_png(failures / (scene + ".difference.png"), difference_picture(expected, actual));
-  const Difference d = compare_pictures(expected, actual);
-  return fail(std::to_string(d.pixels) + " pixels differ, by up to " + std::to_string(d.worst) + "; first at (" + std::to_string(d.first_x) +
-              ", " + std::to_string(d.first_y) + "): expected " + colour_text(expected.pixel(d.first_x, d.first_y)) + ", actual " +
-              colour_text(actual.pixel(d.first_x, d.first_y)) + file_list(failures, scene));
+  std::string report = golden_fault(store, entry, scene, actual);
+  std::string pictures = "\n  actual:     " + files.actual().string();
+  if (report.empty()) {
+    const sim::Image expected = sim::read_png(store.picture_path(scene));
+    const sim::CompareReport compared = sim::compare_images(expected, actual);
+    if (compared.result == sim::CompareResult::kSame) return {};
+    report = sim::report_text(compared);
+    std::filesystem::create_directories(failures);
+    sim::write_png(files.expected(), expected);
+    sim::write_png(files.difference(), sim::difference_image(expected, actual));
+    pictures += "\n  expected:   " + files.expected().string() + "\n  difference: " + files.difference().string();
+  }
+  std::filesystem::create_directories(failures);
+  sim::write_png(files.actual(), actual);
+  return {false, scene + ": " + report + pictures + "\n  CRC-32 now: " + hex8(sim::picture_crc32(actual)) +
+                     "\n  if the new picture is right: bash tests/golden/approve.sh " + scene};
 }
 
-bool TwoBackgrounds::covered(std::uint32_t x, std::uint32_t y) const { return std::memcmp(first.pixel(x, y), second.pixel(x, y), 3) == 0; }
+PeerComparison& PeerComparison::operator+=(const PeerComparison& other) {
+  covered += other.covered;
+  covered_by_one += other.covered_by_one;
+  compared += other.compared;
+  beyond_tolerance += other.beyond_tolerance;
+  worst = std::max(worst, other.worst);
+  if (first_coverage.empty()) first_coverage = other.first_coverage;
+  if (first_colour.empty()) first_colour = other.first_colour;
+  return *this;
+}
 
-PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackgrounds& peers) {
+PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackgrounds& peers, std::uint32_t tolerance) {
   PeerComparison result;
   const auto place = [&](std::uint32_t x, std::uint32_t y) {
-    return "(" + std::to_string(x) + ", " + std::to_string(y) + "): ours " + colour_text(ours.first.pixel(x, y)) + ", the peer's " +
-           colour_text(peers.first.pixel(x, y));
+    return "(" + std::to_string(x) + ", " + std::to_string(y) + "): ours " + colour_text(ours.first.at(x, y)) + ", the peer's " +
+           colour_text(peers.first.at(x, y));
   };
   for (std::uint32_t y = 0; y < ours.first.height; ++y) {
     for (std::uint32_t x = 0; x < ours.first.width; ++x) {
@@ -112,9 +100,9 @@ PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackground
         continue;
       }
       ++result.compared;
-      const int distance = channel_distance(ours.first.pixel(x, y), peers.first.pixel(x, y));
+      const std::uint32_t distance = channel_distance(ours.first.at(x, y), peers.first.at(x, y));
       result.worst = std::max(result.worst, distance);
-      if (distance > kChannelTolerance && result.beyond_tolerance++ == 0) result.first_colour = place(x, y);
+      if (distance > tolerance && result.beyond_tolerance++ == 0) result.first_colour = place(x, y);
     }
   }
   return result;

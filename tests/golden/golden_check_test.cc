@@ -4,8 +4,8 @@
 
 #include <fstream>
 
+#include "sim/image/png.h"
 #include "tests/golden/golden_check.h"
-#include "tests/golden/golden_png.h"
 #include "tests/golden/golden_store.h"
 
 namespace usuzumi::golden {
@@ -13,12 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-RgbPicture plain(std::uint32_t width, std::uint32_t height, std::uint8_t level) {
-  return {width, height, std::vector<std::uint8_t>(std::size_t{width} * height * 3, level)};
-}
-
-Entry entry_of(const std::string& scene, const RgbPicture& picture) {
-  return {scene, picture.width, picture.height, scenes::picture_crc32(picture), "a note of words"};
+Entry entry_of(const std::string& scene, const sim::Image& picture) {
+  return {scene, picture.width, picture.height, sim::picture_crc32(picture), "a note of words"};
 }
 
 class GoldenCheck : public testing::Test {
@@ -38,13 +34,15 @@ class GoldenCheck : public testing::Test {
 
 TEST_F(GoldenCheck, CrcIsThatOfRgbBytesInScanOrder) {
   // "123456789" as three pixels: the check value of CRC-32/ISO-HDLC.
-  EXPECT_EQ(scenes::picture_crc32({3, 1, {'1', '2', '3', '4', '5', '6', '7', '8', '9'}}), 0xCBF43926u);
+  sim::Image picture(3, 1);
+  picture.xrgb = {0x313233, 0x343536, 0x373839};
+  EXPECT_EQ(sim::picture_crc32(picture), 0xCBF43926u);
 }
 
 TEST_F(GoldenCheck, ApprovedPictureIsReadBackAndPasses) {
-  RgbPicture picture = plain(5, 4, 10);
-  picture.rgb[7] = 200;
-  Store(folder_).put(entry_of("02-b", plain(2, 2, 1)), plain(2, 2, 1));
+  sim::Image picture(5, 4, 0x0A0A0A);
+  picture.at(2, 1) = 0xC80A0A;
+  Store(folder_).put(entry_of("02-b", sim::Image(2, 2, 1)), sim::Image(2, 2, 1));
   Store(folder_).put(entry_of("01-a", picture), picture);
   const Store store(folder_);
   ASSERT_EQ(store.entries().size(), 2u);
@@ -57,49 +55,52 @@ TEST_F(GoldenCheck, ApprovedPictureIsReadBackAndPasses) {
 }
 
 TEST_F(GoldenCheck, MissingGoldenFailsAndLeavesTheActualPicture) {
-  const Verdict verdict = check_golden(Store(folder_), "77-new", plain(3, 3, 9), failures());
+  const sim::Image picture(3, 3, 9);
+  const Verdict verdict = check_golden(Store(folder_), "77-new", picture, failures());
   EXPECT_FALSE(verdict.ok);
   EXPECT_THAT(verdict.report, HasSubstr("has no golden"));
   EXPECT_THAT(verdict.report, HasSubstr("approve.sh 77-new"));
-  EXPECT_EQ(read_png(failures() / "77-new.actual.png"), plain(3, 3, 9));
+  EXPECT_EQ(sim::read_png(failures() / "77-new.actual.png"), picture);
 }
 
 TEST_F(GoldenCheck, GoldenWithoutItsPngFails) {
+  const sim::Image picture(3, 3, 9);
   Store store(folder_);
-  store.put(entry_of("01-a", plain(3, 3, 9)), plain(3, 3, 9));
+  store.put(entry_of("01-a", picture), picture);
   std::filesystem::remove(store.picture_path("01-a"));
-  EXPECT_THAT(check_golden(store, "01-a", plain(3, 3, 9), failures()).report, HasSubstr("golden has no PNG"));
+  EXPECT_THAT(check_golden(store, "01-a", picture, failures()).report, HasSubstr("golden has no PNG"));
 }
 
 TEST_F(GoldenCheck, ManifestAndPngThatContradictEachOtherFail) {
+  const sim::Image picture(3, 3, 9);
   Store store(folder_);
-  Entry entry = entry_of("01-a", plain(3, 3, 9));
+  Entry entry = entry_of("01-a", picture);
   entry.crc32 ^= 1;
-  store.put(entry, plain(3, 3, 9));
-  EXPECT_THAT(check_golden(store, "01-a", plain(3, 3, 9), failures()).report, HasSubstr("its own PNG"));
+  store.put(entry, picture);
+  EXPECT_THAT(check_golden(store, "01-a", picture, failures()).report, HasSubstr("its own PNG"));
 }
 
 TEST_F(GoldenCheck, OneWrongPixelFailsByItsPlaceAndLeavesThreePictures) {
-  const RgbPicture expected = plain(4, 3, 100);
-  RgbPicture actual = expected;
-  actual.rgb[(2 * 4 + 1) * 3 + 2] = 101;  // blue of (1, 2)
+  const sim::Image expected(4, 3, 0x646464);
+  sim::Image actual = expected;
+  actual.at(1, 2) = 0x646465;
   Store store(folder_);
   store.put(entry_of("01-a", expected), expected);
   const Verdict verdict = check_golden(store, "01-a", actual, failures());
   EXPECT_FALSE(verdict.ok);
-  EXPECT_THAT(verdict.report, HasSubstr("1 pixels differ, by up to 1; first at (1, 2): expected #646464, actual #646465"));
+  EXPECT_THAT(verdict.report, HasSubstr("1 of 12 pixels differ, largest channel difference 1"));
+  EXPECT_THAT(verdict.report, HasSubstr("first at x=1 y=2"));
   EXPECT_THAT(verdict.report, HasSubstr((failures() / "01-a.difference.png").string()));
-  EXPECT_EQ(read_png(failures() / "01-a.actual.png"), actual);
-  EXPECT_EQ(read_png(failures() / "01-a.expected.png"), expected);
-  const RgbPicture difference = read_png(failures() / "01-a.difference.png");
-  EXPECT_THAT(std::vector<int>(difference.pixel(1, 2), difference.pixel(1, 2) + 3), testing::ElementsAre(0, 0, 65));
-  EXPECT_THAT(std::vector<int>(difference.pixel(0, 0), difference.pixel(0, 0) + 3), testing::ElementsAre(12, 12, 12));
+  EXPECT_EQ(sim::read_png(failures() / "01-a.actual.png"), actual);
+  EXPECT_EQ(sim::read_png(failures() / "01-a.expected.png"), expected);
+  const sim::Image difference = sim::read_png(failures() / "01-a.difference.png");
+  EXPECT_NE(difference.at(1, 2), difference.at(0, 0));
 }
 
 TEST_F(GoldenCheck, PictureOfAnotherSizeFails) {
   Store store(folder_);
-  store.put(entry_of("01-a", plain(4, 3, 1)), plain(4, 3, 1));
-  EXPECT_THAT(check_golden(store, "01-a", plain(3, 4, 1), failures()).report, HasSubstr("is 3 x 4, golden is 4 x 3"));
+  store.put(entry_of("01-a", sim::Image(4, 3, 1)), sim::Image(4, 3, 1));
+  EXPECT_THAT(check_golden(store, "01-a", sim::Image(3, 4, 1), failures()).report, HasSubstr("is 3 x 4, golden is 4 x 3"));
 }
 
 TEST_F(GoldenCheck, ManifestLineThatCannotBeReadIsNamed) {
@@ -111,17 +112,17 @@ TEST_F(GoldenCheck, ManifestLineThatCannotBeReadIsNamed) {
 
 TEST_F(GoldenCheck, RemovedGoldenIsGoneFromManifestAndFolder) {
   Store store(folder_);
-  store.put(entry_of("01-a", plain(4, 3, 1)), plain(4, 3, 1));
+  store.put(entry_of("01-a", sim::Image(4, 3, 1)), sim::Image(4, 3, 1));
   EXPECT_THAT(store.pictures_on_disk(), testing::ElementsAre("01-a"));
   store.remove("01-a");
   EXPECT_EQ(Store(folder_).find("01-a"), nullptr);
   EXPECT_THAT(store.pictures_on_disk(), testing::IsEmpty());
 }
 
-// 100 x 20 pixels on backgrounds 0 and 255; the first `covered` pixels drawn at `level`.
-TwoBackgrounds drawing(std::size_t covered, std::uint8_t level) {
-  TwoBackgrounds pictures{plain(100, 20, 0), plain(100, 20, 255)};
-  for (std::size_t i = 0; i < covered * 3; ++i) pictures.first.rgb[i] = pictures.second.rgb[i] = level;
+// 100 x 20 pixels on black and on white; the first `covered` pixels drawn in grey of `level`.
+TwoBackgrounds drawing(std::size_t covered, std::uint32_t level) {
+  TwoBackgrounds pictures{sim::Image(100, 20, 0), sim::Image(100, 20, 0xFFFFFF)};
+  for (std::size_t i = 0; i < covered; ++i) pictures.first.xrgb[i] = pictures.second.xrgb[i] = level * 0x010101;
   return pictures;
 }
 
@@ -131,7 +132,7 @@ TEST(PeerComparison, CountsCoverageOfEitherAndColourOfBoth) {
   EXPECT_EQ(c.covered_by_one, 2u);
   EXPECT_EQ(c.compared, 1000u);
   EXPECT_EQ(c.beyond_tolerance, 0u);
-  EXPECT_EQ(c.worst, 2);
+  EXPECT_EQ(c.worst, 2u);
   EXPECT_THAT(c.first_coverage, HasSubstr("(0, 10)"));
   EXPECT_FALSE(c.coverage_ok()) << "2 of 1002 is 0.2 %";
   EXPECT_TRUE(c.colour_ok());
@@ -146,11 +147,22 @@ TEST(PeerComparison, PixelDrawnInABackgroundsColourCountsAsCovered) {
   EXPECT_EQ(compare_with_peer(drawing(10, 0), drawing(10, 255)).covered, 10u);
 }
 
+TEST(PeerComparison, SumsAddUpAndKeepTheFirstPlace) {
+  PeerComparison sum = compare_with_peer(drawing(10, 80), drawing(10, 80));
+  sum += compare_with_peer(drawing(10, 80), drawing(9, 90));
+  EXPECT_EQ(sum.covered, 20u);
+  EXPECT_EQ(sum.covered_by_one, 1u);
+  EXPECT_EQ(sum.compared, 19u);
+  EXPECT_EQ(sum.beyond_tolerance, 9u);
+  EXPECT_EQ(sum.worst, 10u);
+  EXPECT_THAT(sum.first_coverage, HasSubstr("(9, 0)"));
+}
+
 TEST(PeerComparison, OnePixelInTwoHundredIsTheMostForColour) {
   TwoBackgrounds ours = drawing(400, 80);
   const TwoBackgrounds peers = drawing(400, 80);
   for (std::size_t i = 0; i < 3; ++i) {
-    ours.first.rgb[i * 300] = ours.second.rgb[i * 300] = 83;
+    ours.first.xrgb[i * 100] = ours.second.xrgb[i * 100] = 0x505350;
     EXPECT_EQ(compare_with_peer(ours, peers).colour_ok(), i < 2) << i + 1 << " of 400";
   }
 }

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/golden/golden_png.h"
+#include "sim/image/png.h"
 
 namespace usuzumi::golden {
 namespace {
@@ -66,8 +66,8 @@ std::vector<std::string> Store::pictures_on_disk() const {
   return {names.begin(), names.end()};
 }
 
-void Store::put(const Entry& entry, const scenes::RgbPicture& picture) {
-  write_png(picture_path(entry.scene), picture);
+void Store::put(const Entry& entry, const sim::Image& picture) {
+  sim::write_png(picture_path(entry.scene), picture);
   std::erase_if(entries_, [&](const Entry& e) { return e.scene == entry.scene; });
   entries_.push_back(entry);
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.scene < b.scene; });

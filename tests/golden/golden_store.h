@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/support/scene.h"
+#include "sim/image/image.h"
 
 namespace usuzumi::golden {
 
@@ -29,7 +29,7 @@ class Store {
 
   const std::vector<Entry>& entries() const { return entries_; }
   /// nullptr where the manifest does not name the scene. What another route to the same picture (the panel, say) must
-  /// give is find(scene)->crc32.
+  /// give by sim::picture_crc32() is find(scene)->crc32.
   const Entry* find(std::string_view scene) const;
 
   std::filesystem::path picture_path(std::string_view scene) const;
@@ -37,7 +37,7 @@ class Store {
   std::vector<std::string> pictures_on_disk() const;
 
   /// Writes the picture's PNG and its entry into the manifest, which stays sorted by scene.
-  void put(const Entry& entry, const scenes::RgbPicture& picture);
+  void put(const Entry& entry, const sim::Image& picture);
   /// Takes the scene's entry and PNG away.
   void remove(std::string_view scene);
 

@@ -1,7 +1,6 @@
 // Runs a scene on an engine and watches what it does to VRAM.
 #include <cstring>
 
-#include "hal/crc32.h"
 #include "tests/support/scene.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/scene_memory.h"
@@ -80,26 +79,18 @@ void add(gfx::EngineCounters& sum, const gfx::EngineCounters& c) {
 
 }  // namespace
 
-std::uint32_t picture_crc32(const RgbPicture& picture) {
-  return crc32(kCrc32Start, std::as_bytes(std::span<const std::uint8_t>(picture.rgb)));
-}
-
-RgbPicture picture_of(const TargetSpec& target, std::uint32_t stride_bytes, std::span<const std::byte> colour_plane) {
-  RgbPicture picture{target.width, target.height, {}};
-  picture.rgb.reserve(std::size_t{target.width} * target.height * 3);
-  const auto add_channel = [&](std::uint32_t v) { picture.rgb.push_back(static_cast<std::uint8_t>(v)); };
+sim::Image picture_of(const TargetSpec& target, std::uint32_t stride_bytes, std::span<const std::byte> colour_plane) {
+  sim::Image picture(target.width, target.height);
+  const std::uint32_t size = bytes_per_pixel(target.format);
   for (std::uint32_t y = 0; y < target.height; ++y) {
     for (std::uint32_t x = 0; x < target.width; ++x) {
-      const std::uint32_t size = bytes_per_pixel(target.format);
       std::uint32_t v = 0;
       std::memcpy(&v, &colour_plane[std::size_t{y} * stride_bytes + std::size_t{x} * size], size);
       if (target.format == PixelFormat::kRgb565) {
         const std::uint32_t r = v >> 11, g = (v >> 5) & 0x3F, b = v & 0x1F;
         v = (r << 3 | r >> 2) << 16 | (g << 2 | g >> 4) << 8 | (b << 3 | b >> 2);
       }
-      add_channel((v >> 16) & 0xFF);
-      add_channel((v >> 8) & 0xFF);
-      add_channel(v & 0xFF);
+      picture.at(x, y) = v & 0xFFFFFF;
     }
   }
   return picture;

@@ -10,7 +10,7 @@ constexpr auto kNone = command::DepthFormat::kNone;
 constexpr auto kDepth16 = command::DepthFormat::kUnorm16;
 constexpr auto kDepth24 = command::DepthFormat::kUnorm24;
 
-constexpr Scene kScenes[] = {
+const Scene kScenes[] = {
     {"01-clear", "a clear of the whole target", {64, 48}, build_clear},
     {"02-scissored-clear", "clears fill the scissor rectangle, clipped to the target", {96, 64}, build_scissored_clear},
     {"03-single-triangle", "one Gouraud triangle", {160, 112}, build_single_triangle},
@@ -25,7 +25,7 @@ constexpr Scene kScenes[] = {
     {"12-slivers", "triangles thinner and smaller than a pixel, and empty ones", {160, 120}, build_slivers},
     {"13-points", "squares of many sizes at fractions of a pixel", {170, 170}, build_points},
     {"14-lines", "one pixel wide, in all octants, both ways", {256, 128}, build_lines},
-    {"15-wide-lines", "widened along the minor axis", {224, 224}, build_wide_lines},
+    {"15-wide-lines", "widened along the minor axis", {256, 256}, build_wide_lines},
     {"16-depth-functions", "less, less or equal, always", {186, 112, kXrgb8888, kDepth24}, build_depth_functions},
     {"17-depth-write", "depth write off, depth test off, depth cleared within the scissor", {100, 96, kXrgb8888, kDepth24}, build_depth_write},
     {"18-interpenetrating", "surfaces that pierce each other", {160, 160, kXrgb8888, kDepth24}, build_interpenetrating},

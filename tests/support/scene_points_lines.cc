@@ -66,6 +66,7 @@ void build_lines(SceneBuilder& b) {
   b.draw_vertices(star({192, 64, 0.5f}, 12, 58, 40, true), Topology::kLines);
 }
 
+// The target's sides are powers of two, so that diagonals stay exact in clip space and neither axis is the longer one.
 void build_wide_lines(SceneBuilder& b) {
   b.clear_to_background();
   b.set_pixel_transform();
@@ -75,8 +76,8 @@ void build_wide_lines(SceneBuilder& b) {
     raster.line_width = widths[i];
     raster.shade_model = i % 2 == 0 ? ShadeModel::kGouraud : ShadeModel::kFlat;
     b.put(raster);
-    const Vec3 centre{56 + 112 * static_cast<float>(i % 2), 56 + 112 * static_cast<float>(i / 2), 0.5f};
-    b.draw_vertices(star(centre, 20, 48, 16, i % 2 == 1), Topology::kLines);
+    const Vec3 centre{64 + 128 * static_cast<float>(i % 2), 64 + 128 * static_cast<float>(i / 2), 0.5f};
+    b.draw_vertices(star(centre, 20, 54, 16, i % 2 == 1), Topology::kLines);
   }
 }
 
