@@ -314,10 +314,10 @@ TEST(Memory, ATelltaleIsNotDroppedForWantOfRoom) {
 }
 
 TEST(Memory, QuotasAreHalvedBeforeACollapsibleMeshIsLeftOut) {
-  // Eight meshes of 288 faces at half their faces do not fit; coarser ones do, one at a time in the working space.
-  std::vector<TestMesh> meshes(8, hills(12, 3));
+  // Forty meshes of 72 faces at half their faces do not fit beside the working space of the last; coarser ones do.
+  std::vector<TestMesh> meshes(40, hills(6, 3));
   bool halved = false;
-  for (std::size_t ram = 30000; ram < 80000 && !halved; ram += 1000) {
+  for (std::size_t ram = 20000; ram < 80000 && !halved; ram += 1000) {
     ThinningBench bench(container_rom(meshes), ram);
     ASSERT_TRUE(bench.begin_status.ok());
     ASSERT_TRUE(bench.update().ok());
