@@ -37,6 +37,7 @@ class Binner {
 
   /// After reserve().
   void append(const TileRange& range, std::uint32_t entry) {
+    if (range.x0 == range.x1 && range.y0 == range.y1) [[likely]] return append(lists_[range.y0 * grid_.columns + range.x0], entry);
     for (std::int32_t y = range.y0; y <= range.y1; ++y)
       for (std::int32_t x = range.x0; x <= range.x1; ++x) append(lists_[y * grid_.columns + x], entry);
   }

@@ -33,6 +33,7 @@ class DrawRun {
 
   /// False when the pool is exhausted; job.next says how far it went.
   bool run(const WorkItem& item) {
+    item_first_ = item.first;
     if (d_.topology == command::Topology::kTriangleFan) {
       centre_ = d_.call.vertex(0);
       transform_vertices(d_, 1, [&](std::uint32_t) { return centre_; }, &centre_vertex_);
@@ -59,7 +60,11 @@ class DrawRun {
       if (range <= worker_.vertex_capacity && range / 2 <= span_.count) {
         base_ = low;
         transform_range(range);
-        return assemble(first, count, [this](std::uint32_t i) { return d_.call.vertex(i) - base_; });
+        const std::byte* indices = d_.call.indices.data();
+        const std::uint32_t base = base_;
+        if (d_.call.draw.index_format == command::IndexFormat::kU16)
+          return assemble(first, count, [=](std::uint32_t i) { return load<std::uint16_t>(indices + 2 * std::size_t{i}) - base; });
+        return assemble(first, count, [=](std::uint32_t i) { return load<std::uint32_t>(indices + 4 * std::size_t{i}) - base; });
       }
       if (span_.count > worker_.vertex_capacity) continue;
       transform_vertices(d_, span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); }, worker_.vertices);
@@ -102,39 +107,68 @@ class DrawRun {
       case command::Topology::kLines:
         return each([&](std::uint32_t i) { return line(v[local(2 * i)], v[local(2 * i + 1)], 2 * i, 2 * i + 1); });
       case command::Topology::kTriangles:
-        return each([&](std::uint32_t i) {
-          return triangle(v[local(3 * i)], v[local(3 * i + 1)], v[local(3 * i + 2)], 3 * i, 3 * i + 1, 3 * i + 2);
-        });
-      case command::Topology::kTriangleStrip:
-        return each([&](std::uint32_t i) {
-          const std::uint32_t a = i + (i & 1), b = i + 1 - (i & 1);  // every other triangle is turned to keep the winding
-          return triangle(v[local(a)], v[local(b)], v[local(i + 2)], a, b, i + 2);
-        });
+        return triangles(first, count, [&](std::uint32_t i, std::uint32_t k) { return 3 * i + k; }, [&](std::uint32_t at) { return v + local(at); });
+      case command::Topology::kTriangleStrip:  // every other triangle is turned to keep the winding
+        return triangles(first, count, [](std::uint32_t i, std::uint32_t k) { return k == 2 ? i + 2 : i + ((i & 1) ^ k); },
+                         [&](std::uint32_t at) { return v + local(at); });
       case command::Topology::kTriangleFan:
-        return each([&](std::uint32_t i) { return triangle(centre_vertex_, v[local(i + 1)], v[local(i + 2)], 0, i + 1, i + 2); });
+        return triangles(first, count, [](std::uint32_t i, std::uint32_t k) { return k == 0 ? 0 : i + k; },
+                         [&](std::uint32_t at) { return at == 0 ? &centre_vertex_ : v + local(at); });
     }
     return true;
   }
 
-  /// Corners and their positions in the draw's order; the last corner is the provoking one.
-  [[gnu::always_inline]] bool triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
-    if ((a.outcode & b.outcode & c.outcode & kViewSides) != 0) return true;
-    if (((a.outcode | b.outcode | c.outcode) & kNeedsClip) != 0) [[unlikely]] return clipped_triangle(a, b, c, ia, ib, ic);
-    bool drawn = false;
-    if (!setup_.add(a, b, c, c, true, true, drawn)) return false;
-    job_.faces_drawn += drawn;
+  /// Triangles in batches: first all of a batch are examined, then the candidates among them are set up.
+  /// `corner(i, k)` is the position in the draw of primitive i's corner k, the last being the provoking one.
+  template <class Corner, class VertexAt>
+  [[gnu::always_inline]] bool triangles(std::uint32_t first, std::uint32_t count, Corner corner, VertexAt vertex_at) {
+    candidates_ = drawn_ = 0;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const Vertex &a = *vertex_at(corner(i, 0)), &b = *vertex_at(corner(i, 1)), &c = *vertex_at(corner(i, 2));
+      const std::uint32_t any = a.outcode | b.outcode | c.outcode;
+      if ((any & kNeedsClip) != 0) [[unlikely]] {
+        if (!flush(i)) return false;
+        if ((a.outcode & b.outcode & c.outcode & kViewSides) != 0) continue;
+        if (!clipped_triangle(a, b, c, corner(i, 0), corner(i, 1), corner(i, 2))) return false;
+        continue;
+      }
+      Candidate& next = candidate_[candidates_];
+      next.primitive = i;
+      next.drawn_before = drawn_;
+      const bool outside = (a.outcode & b.outcode & c.outcode) != 0;
+      std::uint32_t drawn = 0;
+      const bool keep = setup_.examine(a, b, c, true, next, drawn);
+      drawn_ += outside ? 0 : drawn;
+      candidates_ += keep & !outside;
+      if (candidates_ == kBatch && !flush(i + 1)) return false;
+    }
+    return flush(first + count);
+  }
+
+  /// Sets up the candidates. All primitives before `done` are then dealt with; when the pool is exhausted, those before the
+  /// candidate that found it so.
+  [[gnu::always_inline]] bool flush(std::uint32_t done) {
+    for (std::uint32_t k = 0; k < candidates_; ++k) {
+      if (setup_.put(candidate_[k], candidate_[k].provoking())) [[likely]] continue;
+      job_.faces_drawn += candidate_[k].drawn_before;
+      job_.next.primitive = candidate_[k].primitive - item_first_;
+      return false;
+    }
+    job_.faces_drawn += drawn_;
+    job_.next.primitive = done - item_first_;
+    candidates_ = drawn_ = 0;
     return true;
   }
 
   [[gnu::noinline]] bool clipped_triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
     if (((a.outcode | b.outcode | c.outcode) & kNotANumber) != 0) return true;
     const ClippedPolygon p = clip_triangle(d_, {clip_vertex(a, ia), clip_vertex(b, ib), clip_vertex(c, ic)});
-    Vertex provoking = c;
-    bool drawn = false;
+    std::uint32_t drawn = 0;
     for (int i = 2; i < p.corners; ++i)
-      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], provoking, true, drawn)) return false;
+      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], c, true, drawn)) return false;
     job_.next.piece = 0;
-    job_.faces_drawn += drawn;
+    ++job_.next.primitive;
+    job_.faces_drawn += drawn != 0;
     return true;
   }
 
@@ -166,14 +200,16 @@ class DrawRun {
 
   /// Two triangles; neither culled nor counted as faces.
   bool quad(const Vertex (&corner)[4], const Vertex& provoking) {
-    bool drawn = false;
+    std::uint32_t drawn = 0;
     if (!piece(0, corner[0], corner[1], corner[2], provoking, false, drawn) || !piece(1, corner[0], corner[2], corner[3], provoking, false, drawn)) return false;
     job_.next.piece = 0;
     return true;
   }
 
-  bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, bool& drawn) {
-    if (!setup_.add(a, b, c, provoking, may_cull, number >= job_.next.piece, drawn)) return false;
+  /// A flat piece takes the primitive's provoking vertex, whose place among the corners clipping may have lost.
+  bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, std::uint32_t& drawn) {
+    Candidate candidate;
+    if (setup_.examine(a, b, c, may_cull, candidate, drawn) && number >= job_.next.piece && !setup_.put(candidate, provoking)) return false;
     job_.next.piece = std::max(job_.next.piece, number + 1);
     return true;
   }
@@ -190,6 +226,10 @@ class DrawRun {
   Worker& worker_;
   TriangleSetup setup_;
   VertexSpan span_{};
+  static constexpr std::uint32_t kBatch = 64;
+  Candidate candidate_[kBatch + 1];  // one more to examine into
+  std::uint32_t candidates_ = 0, drawn_ = 0;
+  std::uint32_t item_first_ = 0;
   std::uint32_t base_ = 0;
   std::uint32_t centre_ = 0;
   Vertex centre_vertex_{};

@@ -25,5 +25,5 @@ bool supported() {
 }
 }  // namespace
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels{"avx2", supported, avx2::run_geometry, avx2::run_tile};
+const Kernels kAvx2Kernels{"avx2", supported, avx2::run_geometry, avx2::run_tile, avx2::run_clears};
 }  // namespace usuzumi::gfx::soft

@@ -26,5 +26,5 @@ bool supported() {
 }
 }  // namespace
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels{"avx512", supported, avx512::run_geometry, avx512::run_tile};
+const Kernels kAvx512Kernels{"avx512", supported, avx512::run_geometry, avx512::run_tile, avx512::run_clears};
 }  // namespace usuzumi::gfx::soft

@@ -63,6 +63,7 @@ struct Round {
   TileGrid grid;
   const DrawSetup* draws = nullptr;
   const ClearOperation* clears = nullptr;
+  std::uint32_t clear_count = 0;
   const WorkItem* items = nullptr;
   Job* jobs = nullptr;
   SlotPool* pool = nullptr;
@@ -81,6 +82,8 @@ struct Kernels {
   void (*run_geometry)(const Round& round, Job& job, Worker& worker);
   /// Rasterizes a tile from the lists of the first `jobs` jobs.
   void (*run_tile)(const Round& round, Worker& worker, std::uint32_t tile, std::uint32_t jobs);
+  /// Clears a row of tiles when the round holds nothing but clears.
+  void (*run_clears)(const Round& round, std::uint32_t tile_row);
 };
 
 /// Variants in rising order of preference; the first runs everywhere. Their results are the same bytes.

@@ -24,6 +24,7 @@ using I16 = std::int16_t __attribute__((vector_size(4 * kLanes)));   // two per 
 using U16 = std::uint16_t __attribute__((vector_size(4 * kLanes)));
 using F32x4 = float __attribute__((vector_size(16)));
 using I32x4 = std::int32_t __attribute__((vector_size(16)));
+using I16x8 = std::int16_t __attribute__((vector_size(16)));
 using F64x4 = double __attribute__((vector_size(32)));
 using U64x4 = std::uint64_t __attribute__((vector_size(32)));
 
@@ -33,6 +34,8 @@ template <class To, class From>
   return __builtin_bit_cast(To, v);
 }
 
+[[gnu::always_inline]] inline I32x4 least(I32x4 a, I32x4 b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline I32x4 most(I32x4 a, I32x4 b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline I32 splat(std::int32_t v) { return I32{} + v; }
 [[gnu::always_inline]] inline U32 splat_u(std::uint32_t v) { return U32{} + v; }
 [[gnu::always_inline]] inline F32 splat_f(float v) { return F32{} + v; }

@@ -208,7 +208,8 @@ void SoftEngine::append_item(const WorkItem& item) {
 }
 
 void SoftEngine::finish_round() {
-  std::uint32_t first_left = 0;  // jobs before are done
+  std::uint32_t first_left = draw_count_ == 0 ? job_count_ : 0;  // jobs before are done
+  if (draw_count_ == 0 && clear_count_ != 0) run_clears();
   bool alone = false;            // only the first job left may use the pool
   while (first_left < job_count_) {
     round_.jobs = &jobs_[first_left];
@@ -233,16 +234,12 @@ void SoftEngine::finish_round() {
 /// Runs the phase's jobs; how many of them, from the first on, are complete.
 std::uint32_t SoftEngine::run_geometry() {
   pool_.reuse();
-  next_part_.store(0, std::memory_order_relaxed);
   exhausted_.store(false, std::memory_order_relaxed);
   for (std::uint32_t j = 0; j < phase_jobs_; ++j) {
     round_.jobs[j].complete = false;
     round_.jobs[j].faces_drawn = 0;
   }
-  if (worker_count_ > 1 && phase_jobs_ > 1)
-    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { static_cast<SoftEngine*>(engine)->run_geometry_worker(w); }, this);
-  else
-    run_geometry_worker(0);
+  run_workers<&SoftEngine::run_geometry_worker>(phase_jobs_ == 1);
   std::uint32_t complete = 0;
   while (complete < phase_jobs_ && round_.jobs[complete].complete) ++complete;
   return complete;
@@ -261,21 +258,33 @@ void SoftEngine::run_geometry_worker(std::uint32_t worker) {
 }
 
 void SoftEngine::run_tiles(std::uint32_t jobs) {
-  next_part_.store(0, std::memory_order_relaxed);
   phase_jobs_ = jobs;
-  if (worker_count_ > 1)
-    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { static_cast<SoftEngine*>(engine)->run_tile_worker(w); }, this);
-  else
-    run_tile_worker(0);
+  phase_parts_ = round_.grid.count();
+  run_workers<&SoftEngine::run_tile_worker>(false);
 }
 
 void SoftEngine::run_tile_worker(std::uint32_t worker) {
-  const std::uint32_t tiles = round_.grid.count();
   for (;;) {
-    const std::uint32_t tile = next_part_.fetch_add(1, std::memory_order_relaxed);
-    if (tile >= tiles) return;
-    kernels_->run_tile(round_, workers_[worker], tile, phase_jobs_);
+    const std::uint32_t part = next_part_.fetch_add(1, std::memory_order_relaxed);
+    if (part >= phase_parts_) return;
+    if (draw_count_ == 0) kernels_->run_clears(round_, part);
+    else kernels_->run_tile(round_, workers_[worker], part, phase_jobs_);
   }
+}
+
+void SoftEngine::run_clears() {
+  round_.clear_count = clear_count_;
+  phase_parts_ = static_cast<std::uint32_t>(round_.grid.rows);
+  run_workers<&SoftEngine::run_tile_worker>(false);
+}
+
+template <void (SoftEngine::*work)(std::uint32_t)>
+void SoftEngine::run_workers(bool alone) {
+  next_part_.store(0, std::memory_order_relaxed);
+  if (worker_count_ > 1 && !alone)
+    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { (static_cast<SoftEngine*>(engine)->*work)(w); }, this);
+  else
+    (this->*work)(0);
 }
 
 }  // namespace usuzumi::gfx

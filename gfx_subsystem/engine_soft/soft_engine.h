@@ -51,6 +51,10 @@ class SoftEngine final : public Engine, private CommandSink {
   void run_geometry_worker(std::uint32_t worker);
   void run_tiles(std::uint32_t jobs);
   void run_tile_worker(std::uint32_t worker);
+  void run_clears();
+  /// Lets every worker of the phase run `work`.
+  template <void (SoftEngine::*work)(std::uint32_t)>
+  void run_workers(bool alone);
 
   const soft::Kernels* kernels_;
   std::span<std::byte> work_memory_;
@@ -73,7 +77,7 @@ class SoftEngine final : public Engine, private CommandSink {
   // Shared by the workers of a phase.
   std::atomic<std::uint32_t> next_part_{0};
   std::atomic<bool> exhausted_{false};
-  std::uint32_t phase_jobs_ = 0;
+  std::uint32_t phase_jobs_ = 0, phase_parts_ = 0;
 
   EngineCounters counters_;
 };

@@ -112,5 +112,16 @@ void run_tile(const Round& r, Worker& worker, std::uint32_t tile, std::uint32_t 
   if (r.uses_depth) store_plane(depth_plane(r), extent, buffers.depth);
 }
 
+/// A band of tile rows of a round that only clears: whole rows at a time, which memory likes better than tiles.
+void run_clears(const Round& r, std::uint32_t band) {
+  const std::int32_t y0 = static_cast<std::int32_t>(band) * kTileSize;
+  for (std::uint32_t i = 0; i < r.clear_count; ++i) {
+    const ClearOperation& c = r.clears[i];
+    const PixelRect rect{c.rect.x0, std::max(c.rect.y0, y0), c.rect.x1, std::min(c.rect.y1, y0 + kTileSize)};
+    if (c.colour) fill_plane(colour_plane(r), rect, c.pixel);
+    if (c.depth) fill_plane(depth_plane(r), rect, c.depth_value);
+  }
+}
+
 }  // namespace
 }  // namespace usuzumi::gfx::soft::USUZUMI_KERNEL

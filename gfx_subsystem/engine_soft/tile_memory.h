@@ -78,7 +78,7 @@ inline void store_plane(const Plane& plane, const TileExtent& tile, std::uint32_
 /// Fills a rectangle of a plane in VRAM.
 inline void fill_plane(const Plane& plane, const PixelRect& rect, std::uint32_t value) {
   const auto pixels = static_cast<std::size_t>(rect.x1 - rect.x0);
-  const Four wide = Four{} + (plane.narrow ? value | value << 16 : value);
+  const U32 wide = splat_u(plane.narrow ? value | value << 16 : value);
   for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
     std::byte* p = plane.at({rect.x0, y}, 0);
     std::size_t left = pixels * plane.pixel_bytes();

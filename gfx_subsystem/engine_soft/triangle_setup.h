@@ -29,47 +29,60 @@ inline constexpr double kDoubleRoundingBias = 6755399441055744.0;  // 1.5 * 2^52
   return colour_range * (u_max - u_min) <= (4.0f * 128.0f) * u_min;
 }
 
-/// A triangle on its way through set-up: positive area, corners in order.
-struct SetupInput {
-  const Vertex* v[3];
-  const Vertex* provoking;
+/// The second half of a Vertex: x, y, then u and outcode, which are ignored.
+[[gnu::always_inline]] inline I32x4 position_of(const Vertex& v) { return load<I32x4>(&v.x); }
+
+/// A triangle that has area, is not culled and has a pixel centre in its clipped bounding box.
+struct Candidate {
+  const Vertex* v[3];        // positive area
   std::int64_t area;
-  PixelRect box;                        // clipped, x1 and y1 exclusive
-  bool box_cuts;                        // clipping made the box smaller
+  PixelRect box;             // clipped bounding box in pixels, x1 and y1 exclusive
+  std::uint32_t primitive;   // of the draw
+  std::uint32_t drawn_before;  // faces drawn before it, for a job that stops here
+  bool swapped;              // v[1] and v[2] have changed places
+  bool box_cuts;             // clipping made the box smaller
   bool small;
-  Shading shading;
+
+  const Vertex& provoking() const { return *v[swapped ? 1 : 2]; }
 };
 
 class TriangleSetup {
  public:
   TriangleSetup(const DrawSetup& draw, std::uint32_t draw_index, Binner& binner)
-      : d_(draw), draw_index_(static_cast<std::uint16_t>(draw_index)), binner_(binner) {}
+      : d_(draw), draw_index_(static_cast<std::uint16_t>(draw_index)), binner_(binner),
+        clip_first_{draw.clip.x0, draw.clip.y0, 0, 0}, clip_end_{draw.clip.x1, draw.clip.y1, 0, 0} {}
 
-  /// One triangle. `drawn` becomes true when it has area and is not culled. False: the pool is exhausted, nothing binned.
-  [[gnu::always_inline]] bool add(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, bool bin, bool& drawn) {
+  /// Fills in `out` and tells whether it is a candidate; without branches, since which triangles are is a matter of luck.
+  /// `drawn` counts those with area that are not culled.
+  [[gnu::always_inline]] bool examine(const Vertex& a, const Vertex& b, const Vertex& c, bool may_cull, Candidate& out, std::uint32_t& drawn) const {
     const std::int64_t x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y;
-    std::int64_t area = x1 * y2 - x2 * y1;
-    if (area == 0) return true;
-    if (may_cull && (area > 0 ? d_.cull_positive : d_.cull_negative)) return true;
-    drawn = true;
-    SetupInput in;
-    const std::int32_t min_x = std::min({a.x, b.x, c.x}), max_x = std::max({a.x, b.x, c.x});
-    const std::int32_t min_y = std::min({a.y, b.y, c.y}), max_y = std::max({a.y, b.y, c.y});
-    // First and last pixel centres inside. A centre exactly on the right or bottom extreme is never covered.
-    const PixelRect box{(min_x + kSubpixelHalf - 1) >> kSubpixelBits, (min_y + kSubpixelHalf - 1) >> kSubpixelBits,
-                        (max_x + kSubpixelHalf - 1) >> kSubpixelBits, (max_y + kSubpixelHalf - 1) >> kSubpixelBits};
-    in.box = {std::max(box.x0, d_.clip.x0), std::max(box.y0, d_.clip.y0), std::min(box.x1, d_.clip.x1), std::min(box.y1, d_.clip.y1)};
-    if (in.box.empty() || !bin) return true;
-    in.box_cuts = in.box.x0 != box.x0 || in.box.y0 != box.y0 || in.box.x1 != box.x1 || in.box.y1 != box.y1;
-    in.small = max_x - min_x <= kMaxSpan * kSubpixelOne - kSubpixelOne && max_y - min_y <= kMaxSpan * kSubpixelOne - kSubpixelOne;
-    const bool swap = area < 0;
-    in.v[0] = &a;
-    in.v[1] = swap ? &c : &b;
-    in.v[2] = swap ? &b : &c;
-    in.area = swap ? -area : area;
-    in.provoking = &provoking;
-    in.shading = choose_shading(a, b, c);
-    return in.small ? put_small(in) : put_big(in);
+    const std::int64_t area = x1 * y2 - x2 * y1;
+    const bool negative = area < 0;
+    out.v[0] = &a;
+    out.v[1] = negative ? &c : &b;
+    out.v[2] = negative ? &b : &c;
+    out.swapped = negative;
+    out.area = negative ? -area : area;
+    const I32x4 p = position_of(a), q = position_of(b), r = position_of(c);
+    const I32x4 low = least(least(p, q), r), high = most(most(p, q), r);
+    // First pixel centre inside and first beyond. A centre exactly on the right or bottom extreme is never covered.
+    const I32x4 first = (low + (kSubpixelHalf - 1)) >> kSubpixelBits, end = (high + (kSubpixelHalf - 1)) >> kSubpixelBits;
+    const I32x4 first_in = most(first, clip_first_), end_in = least(end, clip_end_);
+    store(&out.box, __builtin_shufflevector(first_in, end_in, 0, 1, 4, 5));
+    const I32x4 cut = (first_in - first) | (end - end_in), extent = high - low;
+    out.box_cuts = (cut[0] | cut[1]) != 0;
+    out.small = (extent[0] <= kMaxSmallExtent) & (extent[1] <= kMaxSmallExtent);
+    const bool culled = may_cull & (negative ? d_.cull_negative : d_.cull_positive);
+    const bool is_drawn = (area != 0) & !culled;
+    drawn += is_drawn;
+    const I32x4 size = end_in - first_in;
+    return is_drawn & (size[0] > 0) & (size[1] > 0);
+  }
+
+  /// Flat triangles take the colour of `provoking`. False: the pool is exhausted, nothing binned.
+  [[gnu::always_inline]] bool put(const Candidate& c, const Vertex& provoking) {
+    const Shading shading = choose_shading(*c.v[0], *c.v[1], *c.v[2]);
+    return c.small ? put_small(c, shading, provoking) : put_big(c, shading, provoking);
   }
 
  private:
@@ -86,7 +99,7 @@ class TriangleSetup {
   struct Steps {
     F64x4 dx, dy;
   };
-  [[gnu::always_inline]] static Steps steps(const SetupInput& in, F64x4 at0, F64x4 at1, F64x4 at2) {
+  [[gnu::always_inline]] static Steps steps(const Candidate& in, F64x4 at0, F64x4 at1, F64x4 at2) {
     const Vertex &v0 = *in.v[0], &v1 = *in.v[1], &v2 = *in.v[2];
     const double per_pixel = static_cast<double>(kSubpixelOne) / static_cast<double>(in.area);
     const F64x4 d1 = at1 - at0, d2 = at2 - at0;
@@ -102,13 +115,13 @@ class TriangleSetup {
   [[gnu::always_inline]] F64x4 halves() const {
     return F64x4{static_cast<double>(d_.lane_half[0]), static_cast<double>(d_.lane_half[1]), static_cast<double>(d_.lane_half[2]), 128};
   }
-  [[gnu::always_inline]] static Steps attribute_steps(const SetupInput& in) {
+  [[gnu::always_inline]] static Steps attribute_steps(const Candidate& in) {
     Steps s = steps(in, attributes(*in.v[0]), attributes(*in.v[1]), attributes(*in.v[2]));
-    if (in.area < kSteepArea) flatten_steep(s);
+    if (in.area < (in.small ? kSteepAreaSmall : kSteepAreaBig)) flatten_steep(s);
     return s;
   }
-  /// Larger areas cannot have a step of kMaxStep: 2^32 of depth times 2^23 of position, twice, times 256 per pixel.
-  static constexpr std::int64_t kSteepArea = std::int64_t{1} << 24;
+  /// Larger areas cannot have a step of kMaxStep: 2^32 of depth times 2^14 (or 2^23) of position, twice, times 256 per pixel.
+  static constexpr std::int64_t kSteepAreaSmall = std::int64_t{1} << 13, kSteepAreaBig = std::int64_t{1} << 22;
   [[gnu::always_inline]] static void flatten_steep(Steps& s) {
     const F64x4 x = s.dx < 0.0 ? -s.dx : s.dx, y = s.dy < 0.0 ? -s.dy : s.dy;
     const auto keep = (x <= kMaxStep) & (y <= kMaxStep);
@@ -124,7 +137,7 @@ class TriangleSetup {
     F64x4 at0;
     Steps step;
   };
-  static PerspectiveSetup perspective(const SetupInput& in) {
+  static PerspectiveSetup perspective(const Candidate& in) {
     const double u_scale = 1.0 / static_cast<double>(std::max({in.v[0]->u, in.v[1]->u, in.v[2]->u}));
     const F64x4 at0 = over_w(*in.v[0], u_scale);
     return {at0, steps(in, at0, over_w(*in.v[1], u_scale), over_w(*in.v[2], u_scale))};
@@ -147,53 +160,58 @@ class TriangleSetup {
 
   [[gnu::always_inline]] static std::int32_t fill_rule(std::int32_t a, std::int32_t b) { return a > 0 || (a == 0 && b > 0) ? 0 : 1; }
 
-  [[gnu::always_inline]] bool put_small(const SetupInput& in) {
+  /// Four words of a SmallTriangle at a time.
+  [[gnu::always_inline]] bool put_small(const Candidate& in, Shading shading, const Vertex& provoking) {
     const TileRange range = tiles(in.box);
-    const std::uint32_t slots = in.shading == Shading::kPerspective ? 2 : 1;
+    const std::uint32_t slots = shading == Shading::kPerspective ? 2 : 1;
     if (!binner_.reserve(slots, range)) return false;
     const std::uint32_t slot = binner_.take_record(slots);
-    SmallTriangle& t = binner_.record<SmallTriangle>(slot);
+    std::byte* record = reinterpret_cast<std::byte*>(&binner_.record<SmallTriangle>(slot));
     const std::int32_t origin_x = in.box.x0 * kSubpixelOne + kSubpixelHalf, origin_y = in.box.y0 * kSubpixelOne + kSubpixelHalf;
-    for (int i = 0; i < 3; ++i) {
-      const Vertex &p = *in.v[i], &q = *in.v[i < 2 ? i + 1 : 0];
-      const std::int32_t a = p.y - q.y, b = q.x - p.x;  // |a|, |b| < 2^14; the products below 2^28 + 2^28
-      t.edge[i] = (a * (origin_x - p.x) + b * (origin_y - p.y) - fill_rule(a, b)) >> kSubpixelBits;
-      if (i == 2) continue;
-      t.step[i][0] = static_cast<std::int16_t>(a);
-      t.step[i][1] = static_cast<std::int16_t>(b);
-    }
+
+    // Corners' x and y, and those of the next corner: edges 0-1, 1-2, 2-0.
+    const I32x4 p = position_of(*in.v[0]), q = position_of(*in.v[1]), r = position_of(*in.v[2]);
+    const I32x4 pq = __builtin_shufflevector(p, q, 0, 4, 1, 5);
+    const I32x4 x = __builtin_shufflevector(pq, r, 0, 1, 4, 4), y = __builtin_shufflevector(pq, r, 2, 3, 5, 5);
+    const I32x4 a = y - __builtin_shufflevector(y, y, 1, 2, 0, 3), b = __builtin_shufflevector(x, x, 1, 2, 0, 3) - x;
+    const I32x4 top_left = (a > 0) | ((a == 0) & (b > 0));
+    // |a|, |b| < 2^14 and the origin is no further away; the products are below 2^28.
+    const I32x4 edge = (a * (origin_x - x) + b * (origin_y - y) + ~top_left) >> kSubpixelBits;
+    const I32x4 step = (a & 0xFFFF) | b << 16;
+    store(record, __builtin_shufflevector(edge, step, 0, 1, 2, 4));
+
     const Vertex& v0 = *in.v[0];
     const double from_x = static_cast<double>(origin_x - v0.x) / kSubpixelOne, from_y = static_cast<double>(origin_y - v0.y) / kSubpixelOne;
     const Steps s = attribute_steps(in);
-    const U64x4 base = round_to_words(attributes(v0) + halves() + s.dx * from_x + s.dy * from_y);
-    const U64x4 dx = round_to_words(s.dx), dy = round_to_words(s.dy);
-    t.planes.depth = static_cast<std::uint32_t>(base[3]);
-    t.planes.depth_dx = static_cast<std::uint32_t>(dx[3]);
-    t.planes.depth_dy = static_cast<std::uint32_t>(dy[3]);
-    if (in.shading == Shading::kAffine) {
-      t.planes.high = high(base);
-      t.planes.low = low(base);
-      t.planes.high_dx = high(dx);
-      t.planes.low_dx = low(dx);
-      t.planes.high_dy = high(dy);
-      t.planes.low_dy = low(dy);
+    const I32x4 base = low_words(round_to_words(attributes(v0) + halves() + s.dx * from_x + s.dy * from_y));
+    const I32x4 dx = low_words(round_to_words(s.dx)), dy = low_words(round_to_words(s.dy));
+    const I32x4 depth_steps = __builtin_shufflevector(dx, dy, 3, 3, 7, 7);
+    const I32x4 step1_depth = __builtin_shufflevector(step, base, 1, 7, 1, 7);
+    store(record + 16, __builtin_shufflevector(step1_depth, depth_steps, 0, 1, 4, 6));
+    const I32x4 place{static_cast<std::int32_t>(pair(in.box.x0, in.box.y0)),
+                      static_cast<std::int32_t>(static_cast<std::uint32_t>((in.box.x1 - 1 - in.box.x0) | (in.box.y1 - 1 - in.box.y0) << 8) |
+                                                static_cast<std::uint32_t>(draw_index_ | (in.box_cuts ? kClippedBox : 0)) << 16), 0, 0};
+    if (shading == Shading::kConstant) {
+      store(record + 32, I32x4{static_cast<std::int32_t>(constant_pixel(provoking)), 0, 0, 0});
+      store(record + 48, __builtin_shufflevector(place, place, 0, 0, 0, 1));
+    } else {
+      store(record + 32, __builtin_shufflevector(lanes_of(base), lanes_of(dx), 0, 1, 4, 5));
+      store(record + 48, __builtin_shufflevector(lanes_of(dy), place, 0, 1, 4, 5));
     }
-    if (in.shading == Shading::kConstant) t.planes.high = constant_pixel(*in.provoking);
-    if (in.shading == Shading::kPerspective) put_perspective(in, from_x, from_y, slot + 1);
-    t.x = static_cast<std::uint16_t>(in.box.x0);
-    t.y = static_cast<std::uint16_t>(in.box.y0);
-    t.last_x = static_cast<std::uint8_t>(in.box.x1 - 1 - in.box.x0);
-    t.last_y = static_cast<std::uint8_t>(in.box.y1 - 1 - in.box.y0);
-    t.draw = static_cast<std::uint16_t>(draw_index_ | (in.box_cuts ? kClippedBox : 0));
-    binner_.append(range, entry(EntryKind::kSmall, in.shading, slot));
+    if (shading == Shading::kPerspective) put_perspective(in, from_x, from_y, slot + 1);
+    binner_.append(range, entry(EntryKind::kSmall, shading, slot));
     return true;
   }
 
-  /// Lanes of ColourPlanes: high holds green, low holds red and blue.
-  [[gnu::always_inline]] static std::uint32_t high(U64x4 v) { return static_cast<std::uint32_t>(v[1]) & 0xFFFF; }
-  [[gnu::always_inline]] static std::uint32_t low(U64x4 v) { return pair(static_cast<std::int32_t>(v[2]), static_cast<std::int32_t>(v[0])); }
+  [[gnu::always_inline]] static I32x4 low_words(U64x4 v) { return __builtin_convertvector(v, I32x4); }
 
-  [[gnu::noinline]] void put_perspective(const SetupInput& in, double from_x, double from_y, std::uint32_t slot) {
+  /// From red, green, blue, depth: the words "high" and "low" of Planes, first and second.
+  [[gnu::always_inline]] static I32x4 lanes_of(I32x4 v) {
+    const I16x8 halves = bits_as<I16x8>(v);
+    return bits_as<I32x4>(__builtin_shufflevector(halves, I16x8{}, 2, 8, 4, 0, 8, 8, 8, 8));
+  }
+
+  [[gnu::noinline]] void put_perspective(const Candidate& in, double from_x, double from_y, std::uint32_t slot) {
     PerspectivePlanes& planes = binner_.record<PerspectivePlanes>(slot);
     const PerspectiveSetup p = perspective(in);
     const F64x4 base = p.at0 + p.step.dx * from_x + p.step.dy * from_y;
@@ -202,7 +220,7 @@ class TriangleSetup {
     store(planes.dy, __builtin_convertvector(p.step.dy, F32x4));
   }
 
-  [[gnu::noinline]] bool put_big(const SetupInput& in) {
+  [[gnu::noinline]] bool put_big(const Candidate& in, Shading shading, const Vertex& provoking) {
     constexpr std::uint32_t kSlots = sizeof(BigTriangle) / kSlotBytes;
     const TileRange range = tiles(in.box);
     if (!binner_.reserve(kSlots, range)) return false;
@@ -229,22 +247,25 @@ class TriangleSetup {
       t.plane_dx[k] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(s.dx[k] * kOne + 0.5)));
       t.plane_dy[k] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(s.dy[k] * kOne + 0.5)));
     }
-    if (in.shading == Shading::kPerspective) {
+    if (shading == Shading::kPerspective) {
       const PerspectiveSetup p = perspective(in);
       store(t.perspective, p.at0);
       store(t.perspective_dx, p.step.dx);
       store(t.perspective_dy, p.step.dy);
     }
-    t.constant_pixel = constant_pixel(*in.provoking);
+    t.constant_pixel = constant_pixel(provoking);
     t.draw = draw_index_;
-    t.shading = static_cast<std::uint16_t>(in.shading);
+    t.shading = static_cast<std::uint16_t>(shading);
     binner_.append(range, entry(EntryKind::kBig, Shading::kConstant, slot));
     return true;
   }
 
+  static constexpr std::int32_t kMaxSmallExtent = (kMaxSpan - 1) * kSubpixelOne;
+
   const DrawSetup& d_;
   std::uint16_t draw_index_;
   Binner& binner_;
+  I32x4 clip_first_, clip_end_;
 };
 
 }  // namespace

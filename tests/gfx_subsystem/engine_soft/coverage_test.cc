@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Cells, WatertightGrid, ::testing::Values(1u, 2u, 3u, 7u
 TEST(Coverage, PerspectiveMeshIsWatertightToo) {
   constexpr std::uint32_t kWidth = 320, kHeight = 200;
   JitteredGrid grid(40, 40, 8, 8, 3);
-  for (auto& p : grid.positions) p = {p.x - 4, p.y - 4, -3 - p.z * 0.5f};  // before the eye, beyond the view on all sides
+  for (auto& p : grid.positions) p = {p.x - 4, p.y - 4, -3 - 0.3f * (p.x - 4)};  // a slanted plane beyond the view on all sides
   Bench b(kWidth, kHeight, PixelFormat::kXrgb8888, DepthFormat::kNone, 0, 8u << 20);
   const float near = 0.5f, far = 20;
   b.put(SetTransform{{{1.2f, 0, 0, 0, 0, 1.2f, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * near / (near - far), 0, 0, -1, 0}}});
