@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "gfx_subsystem/display/pixel_kernels.h"
+
 namespace usuzumi::gfx {
 namespace {
 
@@ -137,19 +139,71 @@ TEST(ComposeLine, EqualsTheReferenceForRandomStacksOfLayers) {
   }
 }
 
-TEST(PackRgb, WritesRedGreenBlueForAnyCount) {
-  for (std::size_t n = 0; n <= 9; ++n) {
-    Words pixels;
-    std::vector<std::byte> expected;
-    for (std::uint32_t i = 0; i < n; ++i) {
-      pixels.push_back((16 * i + 1) << 16 | (16 * i + 2) << 8 | (16 * i + 3));
-      for (std::uint32_t c = 1; c <= 3; ++c) expected.push_back(static_cast<std::byte>(16 * i + c));
+/// Runs `body` with every variant of the kernels that this processor has; there is one at least.
+template <class Body>
+void for_each_kernel(Body body) {
+  int variants = 0;
+  for (const PixelKernels* kernels : all_pixel_kernels()) {
+    if (!kernels->supported()) continue;
+    SCOPED_TRACE(kernels->name);
+    body(*kernels);
+    ++variants;
+  }
+  ASSERT_GE(variants, 1);
+}
+
+TEST(PixelKernels, PackingWritesRedGreenBlueForAnyCountAndNothingBeyond) {
+  for_each_kernel([](const PixelKernels& kernels) {
+    for (std::uint32_t n = 0; n <= 70; ++n) {
+      Words pixels;
+      std::vector<std::byte> expected;
+      for (std::uint32_t i = 0; i < n; ++i) {
+        pixels.push_back((3 * i + 1) << 16 | (3 * i + 2) << 8 | (3 * i + 3));
+        for (std::uint32_t c = 1; c <= 3; ++c) expected.push_back(static_cast<std::byte>(3 * i + c));
+      }
+      std::vector<std::byte> bytes(3 * n + 16, std::byte{0xEE});
+      kernels.pack_rgb(pixels.data(), n, bytes.data());
+      expected.insert(expected.end(), 16, std::byte{0xEE});
+      ASSERT_EQ(bytes, expected) << n;
     }
-    std::vector<std::byte> bytes(3 * n + 1, std::byte{0xEE});
-    pack_rgb(pixels, bytes.data());
-    EXPECT_EQ(bytes.back(), std::byte{0xEE}) << "wrote beyond the end";
-    bytes.pop_back();
-    EXPECT_EQ(bytes, expected);
+  });
+}
+
+TEST(PixelKernels, EveryAlphaSourceAndBackgroundBlendsAsTheFormulaSays) {
+  for_each_kernel([](const PixelKernels& kernels) {
+    for (std::uint32_t alpha = 0; alpha < 256; ++alpha)
+      for (std::uint32_t source = 0; source < 256; source += 5) {
+        Words above(256), line(256);
+        for (std::uint32_t d = 0; d < 256; ++d) {
+          above[d] = alpha << 24 | source << 16 | (255 - source) << 8 | source;
+          line[d] = d << 16 | d << 8 | (255 - d);
+        }
+        kernels.blend_row(bytes_of(above).data(), 256, line.data());
+        for (std::uint32_t d = 0; d < 256; ++d) {
+          const auto channel = [&](std::uint32_t s, std::uint32_t b) {
+            return static_cast<std::uint32_t>(std::floor((s * alpha + b * (255 - alpha)) / 255.0 + 0.5));
+          };
+          ASSERT_EQ(line[d], channel(source, d) << 16 | channel(255 - source, d) << 8 | channel(source, 255 - d));
+        }
+      }
+  });
+}
+
+TEST(PixelKernels, EveryVariantGivesTheSameBytesForAnyCountAndAlignment) {
+  std::mt19937 random(3);
+  for (std::uint32_t round = 0; round < 2000; ++round) {
+    const std::size_t count = random() % 60, shift = random() % 4;
+    std::vector<std::byte> argb(4 * count + 4);
+    for (std::byte& b : argb) b = random() % 3 == 0 ? std::byte(random() % 2 * 255) : std::byte(random() & 0xFF);
+    Words below(count + 1);
+    for (std::uint32_t& w : below) w = static_cast<std::uint32_t>(random() & 0xFFFFFF);
+    Words expected = below;
+    all_pixel_kernels().front()->blend_row(argb.data() + shift, count, expected.data());
+    for_each_kernel([&](const PixelKernels& kernels) {
+      Words line = below;
+      kernels.blend_row(argb.data() + shift, count, line.data());
+      ASSERT_EQ(line, expected);
+    });
   }
 }
 
