@@ -51,7 +51,15 @@ TEST_F(ArenaTest, FillsToTheLastByteAndNotBeyond) {
 TEST_F(ArenaTest, RefusesCountsWhoseBytesOverflow) {
   EXPECT_EQ(arena.allocate<std::uint64_t>(std::numeric_limits<std::size_t>::max() / 4).data(), nullptr);
   EXPECT_EQ(arena.allocate<std::uint64_t>(std::numeric_limits<std::size_t>::max()).data(), nullptr);
+  EXPECT_EQ(arena.allocate<std::uint64_t>((std::size_t{1} << 61) + 1).data(), nullptr) << "2^64 + 8 bytes are not 8";
   EXPECT_EQ(arena.used(), 0u) << "a refused allocation takes nothing";
+}
+
+TEST_F(ArenaTest, RefusesWhenNotEvenThePaddingFits) {
+  Arena odd(std::span<std::byte>(memory, 255));
+  (void)odd.allocate<std::uint8_t>(255);
+  EXPECT_EQ(odd.allocate<std::uint64_t>(1).data(), nullptr);
+  EXPECT_EQ(odd.used(), 255u);
 }
 
 TEST_F(ArenaTest, ZeroObjectsSucceedEvenWhenFull) {
@@ -69,6 +77,8 @@ TEST_F(ArenaTest, RewindsToAMarkAndKeepsTheHighWater) {
   EXPECT_EQ(arena.high_water(), 110u);
   arena.rewind(50);  // ahead of used(): nothing to give back
   EXPECT_EQ(arena.used(), 10u);
+  (void)arena.allocate<std::uint8_t>(20);
+  EXPECT_EQ(arena.high_water(), 110u) << "30 bytes in use are no new height";
   arena.reset();
   EXPECT_EQ(arena.used(), 0u);
   EXPECT_EQ(arena.high_water(), 110u);
