@@ -2,6 +2,10 @@
 
 #include <array>
 
+#if defined(USUZUMI_CRC32_FOLD)
+#include "hal/crc32_fold.h"
+#endif
+
 namespace usuzumi {
 namespace {
 
@@ -23,10 +27,8 @@ std::uint32_t load_le32(const std::byte* p) {
          std::to_integer<std::uint32_t>(p[2]) << 16 | std::to_integer<std::uint32_t>(p[3]) << 24;
 }
 
-}  // namespace
-
-std::uint32_t crc32(std::uint32_t crc, std::span<const std::byte> bytes) {
-  std::uint32_t c = ~crc;
+/// The division register after `bytes`, without the inversions at both ends.
+std::uint32_t divide(std::uint32_t c, std::span<const std::byte> bytes) {
   const std::byte* p = bytes.data();
   std::size_t n = bytes.size();
   for (; n >= 8; n -= 8, p += 8) {
@@ -35,7 +37,27 @@ std::uint32_t crc32(std::uint32_t crc, std::span<const std::byte> bytes) {
         kTables[3][hi & 0xFF] ^ kTables[2][(hi >> 8) & 0xFF] ^ kTables[1][(hi >> 16) & 0xFF] ^ kTables[0][hi >> 24];
   }
   for (; n > 0; --n, ++p) c = (c >> 8) ^ kTables[0][(c ^ std::to_integer<std::uint32_t>(*p)) & 0xFF];
-  return ~c;
+  return c;
+}
+
+#if defined(USUZUMI_CRC32_FOLD)
+const bool kFold = crc32_fold_supported();
+#endif
+
+}  // namespace
+
+std::uint32_t crc32(std::uint32_t crc, std::span<const std::byte> bytes) {
+  std::uint32_t c = ~crc;
+#if defined(USUZUMI_CRC32_FOLD)
+  if (kFold && bytes.size() >= kCrc32FoldMin) {
+    std::byte folded[16];
+    const std::size_t size = bytes.size() / 64 * 64;
+    crc32_fold(c, bytes.data(), size, folded);
+    c = divide(0, folded);
+    bytes = bytes.subspan(size);
+  }
+#endif
+  return ~divide(c, bytes);
 }
 
 }  // namespace usuzumi
