@@ -12,8 +12,8 @@ using display_registers::LayerFormat;
 
 constexpr std::uint32_t kRgbMask = 0x00FFFFFF, kOpaque = 0xFF000000;
 
-// Rows are widened piece by piece, so that what is between widening and blending stays in the first-level cache, and in
-// loops of constant length, so that they become SIMD code at any optimisation level.
+// Rows are widened piece by piece, so that what is between widening and blending stays in the first-level cache, in loops of
+// constant length, which every compiler turns into SIMD code.
 constexpr std::size_t kPiece = 64;
 using Piece = std::uint32_t[kPiece];
 
@@ -55,6 +55,11 @@ void lay_over(const LayerRow& row, std::uint32_t* line) {
     return;
   }
   const bool opaque = is_opaque(row);
+  if (opaque && bytes == 4) {
+    std::memcpy(first, row.pixels, 4 * total);
+    for (std::size_t i = 0; i < total; ++i) first[i] &= kRgbMask;
+    return;
+  }
   Piece piece{};
   for (std::size_t done = 0; done < total; done += kPiece) {
     const std::size_t count = std::min(kPiece, total - done);
