@@ -49,47 +49,4 @@ inline Quadric moved_to(const Quadric& q, Vec3 to) {
   return r;
 }
 
-/// q + r, where r's owner lies at `offset` in q's frame; the sum is in q's frame.
-inline Quadric sum_with_neighbour(const Quadric& q, const Quadric& r, Vec3 offset) {
-  const Vec3 t = multiply(r, offset);
-  const Vec3 b = r.b - t;
-  return {q.xx + r.xx, q.xy + r.xy, q.xz + r.xz, q.yy + r.yy, q.yz + r.yz, q.zz + r.zz,
-          q.b + b,     q.c + (r.c - dot(offset, r.b + b))};
-}
-
-/// A + pull I = L D L' (A is positive semidefinite: no pivoting needed), to solve for places where Q is least.
-class PulledSystem {
- public:
-  /// `pull` > 0 has the units of A. usable() is false where a pivot is not above zero: A is zero, or not finite.
-  PulledSystem(const Quadric& q, float pull) : pull_(pull) {
-    const float d0 = q.xx + pull;
-    r0_ = 1.0f / d0;
-    l10_ = q.xy * r0_;
-    l20_ = q.xz * r0_;
-    const float d1 = (q.yy + pull) - l10_ * q.xy;
-    const float e21 = q.yz - l10_ * q.xz;
-    r1_ = 1.0f / d1;
-    l21_ = e21 * r1_;
-    const float d2 = ((q.zz + pull) - l20_ * q.xz) - l21_ * e21;
-    r2_ = 1.0f / d2;
-    usable_ = d0 > 0 && d1 > 0 && d2 > 0 && r0_ > 0 && r1_ > 0 && r2_ > 0;
-  }
-
-  bool usable() const { return usable_; }
-
-  /// Where Q(x) + pull |x - towards|^2 is least.
-  Vec3 minimum(const Quadric& q, Vec3 towards) const {
-    const float y0 = pull_ * towards.x - q.b.x;
-    const float y1 = (pull_ * towards.y - q.b.y) - l10_ * y0;
-    const float y2 = ((pull_ * towards.z - q.b.z) - l20_ * y0) - l21_ * y1;
-    const float z = y2 * r2_;
-    const float y = y1 * r1_ - l21_ * z;
-    return {(y0 * r0_ - l10_ * y) - l20_ * z, y, z};
-  }
-
- private:
-  float pull_, r0_, r1_, r2_, l10_, l20_, l21_;
-  bool usable_;
-};
-
 }  // namespace usuzumi::firmware
