@@ -70,8 +70,8 @@ TEST(OsmesaDraw, LightIsAmbientPlusDiffuseCutAtOne) {
   EXPECT_EQ(lit_pixel(base, down, light, false), 0xFFC86432u) << "no normals: colour = base";
   // 511 * cos(60 degrees) packs to 256 of 511: 200 * (0 + 1 * 256 / 511) = 100.2
   EXPECT_EQ(lit_pixel(rgba8(200, 200, 200), pack_normal({0.86602540f, 0, 0.5f}), {1, {0, 0, 1}, {0, 0, 0}, {1, 1, 1}}), 0xFF646464u);
-  // The field -512 stands for -1 like -511 does; a normal of length 1 faces the light fully.
-  EXPECT_EQ(lit_pixel(kWhite, PackedNormal{0x200u << 20}, {1, {0, 0, -0.5f}, {0, 0, 0}, {1, 1, 1}}), 0xFF808080u);
+  // The field -512 stands for -1 as -511 does: 255 * 0.4996 is 127.4; unclamped it would be 127.6.
+  EXPECT_EQ(lit_pixel(kWhite, PackedNormal{0x200u << 20}, {1, {0, 0, -1}, {0, 0, 0}, {0.4996f, 0.4996f, 0.4996f}}), 0xFF7F7F7Fu);
 }
 
 TEST(OsmesaDraw, FlatTakesTheLastVertexOfEachPrimitive) {
