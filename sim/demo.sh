@@ -9,7 +9,7 @@ usuzumi=build/demo/sim/cli/usuzumi
 bash sim/install.sh
 echo "Building the simulator in build/demo"
 mkdir -p build "$out"
-{ cmake -S . -B build/demo -DUSUZUMI_TESTS=OFF && cmake --build build/demo -j "$(nproc)"; } >build/demo.log 2>&1 || { tail -n 40 build/demo.log; exit 1; }
+{ cmake --preset demo && cmake --build --preset demo -j "$(nproc)"; } >build/demo.log 2>&1 || { tail -n 40 build/demo.log; exit 1; }
 
 field() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\).*/\1/p" "$1" | tail -n 1; }  # the last frame's value in a stats file
 
