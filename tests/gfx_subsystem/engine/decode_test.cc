@@ -201,6 +201,13 @@ TEST_F(DecodeTest, ColourTargetsAreChecked) {
   expect_refused(with([](auto& t) { t.base = kReadOnly, t.height = 1; }), "read-only memory");
 }
 
+TEST_F(DecodeTest, TargetsAbove4096AreRefusedForTheirSizeAlone) {
+  const SetColourTarget wide{kTarget, 4 * 4097, 4097, 1, PixelFormat::kXrgb8888};
+  EXPECT_STREQ(decode_packets(wide).message, "colour target: width and height must be 1 to 4096");
+  const SetColourTarget high{kTarget, 32, 8, 4097, PixelFormat::kXrgb8888};
+  EXPECT_STREQ(decode_packets(high).message, "colour target: width and height must be 1 to 4096");
+}
+
 TEST_F(DecodeTest, DepthTargetsAreChecked) {
   expect_refused(SetDepthTarget{kDepth, 32, static_cast<DepthFormat>(3)}, "format");
   expect_refused(SetDepthTarget{kDepth + 2, 32, DepthFormat::kUnorm24}, "base");
@@ -359,6 +366,7 @@ TEST_F(DecodeTest, BadIndicesAreRefused) {
   expect_draw_refused({Topology::kTriangles, IndexFormat::kU32, kIndices + 2, 0, 2}, "32-bit unaligned");
   expect_draw_refused({Topology::kTriangles, IndexFormat::kU32, kTarget + 0x1FC, 0, 2}, "beyond memory");
   expect_draw_refused({Topology::kTriangles, IndexFormat::kU32, kIndices, 0xFFFFFFFFu, 0xFFFFFFFFu}, "overflow");
+  expect_draw_refused({Topology::kTriangles, IndexFormat::kU32, kIndices, 0xFFFFFFFFu, 2}, "sum overflows to 1");
   expect_draw_refused({static_cast<Topology>(5), IndexFormat::kNone, 0, 0, 3}, "topology");
   expect_draw_refused({Topology::kTriangles, static_cast<IndexFormat>(3), 0, 0, 3}, "index format");
 }

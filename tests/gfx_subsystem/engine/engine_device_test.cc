@@ -225,6 +225,16 @@ TEST_F(EngineDeviceTest, ListsThatCannotBeFetchedEndInTheirErrorCode) {
   EXPECT_EQ(engine.executions, 0u);
 }
 
+TEST_F(EngineDeviceTest, AListThatCannotBeFetchedDrewNothing) {
+  engine.report.counters = {.command_words = 10, .faces_drawn = 4};
+  ring();
+  device.advance_to(device.next_event());
+  ring(0);
+  device.advance_to(device.next_event());
+  EXPECT_EQ(device.read(kFDraw), 0u);
+  EXPECT_EQ(cycles(), 200u);
+}
+
 TEST_F(EngineDeviceTest, FaultsInTheListNameTheirKindAndWord) {
   const std::pair<StatusCode, std::uint32_t> cases[] = {
       {StatusCode::kDataLoss, 4},           {StatusCode::kUnsupported, 5},       {StatusCode::kInvalidArgument, 6},
