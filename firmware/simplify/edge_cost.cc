@@ -37,11 +37,11 @@ void use_best_of_ends_and_middle(EdgeCost& result, Vec3 edge) {
 
 // Puts one value per lane side by side.
 template <class Get>
-Float4 gather(Get get) {
+[[gnu::always_inline]] inline Float4 gather(Get get) {
   return Float4{get(0), get(1), get(2), get(3)};
 }
 
-QuadricOf<Float4> gather_quadrics(const Quadric* const* q) {
+[[gnu::always_inline]] inline QuadricOf<Float4> gather_quadrics(const Quadric* const* q) {
   return {gather([&](int i) { return q[i]->xx; }),
           gather([&](int i) { return q[i]->xy; }),
           gather([&](int i) { return q[i]->xz; }),
@@ -67,8 +67,12 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
     return result;
   }
   minimise(e, m);
-  if (believable(m.d0, m.d1, m.d2, m.far_squared, m.edge_squared)) {
-    result.offset = {m.offset.x, m.offset.y, m.offset.z};
+  if (believable(m.system.d0, m.system.d1, m.system.d2, m.far_squared, m.edge_squared)) {
+    // Solving once more, with the pull towards the first solution, takes the pull out again where the quadric does have a
+    // minimum (iterated Tikhonov regularisation): a cube's corners stay. The cost is that of the first solution, which is
+    // a little higher.
+    const Vec3Of<float> refined = solve(m.sum, m.system, m.offset);
+    result.offset = {refined.x, refined.y, refined.z};
     result.cost = at_least_zero(m.cost);
   } else {
     use_best_of_ends_and_middle(result, edge);
@@ -95,7 +99,7 @@ void cost_four_edges(const Surface& surface, const std::uint32_t* a, const std::
   sum_quadrics(gather_quadrics(qa), gather_quadrics(qb), e, m.sum);
   minimise(e, m);
   for (int i = 0; i < 4; ++i) {
-    costs[i] = believable(m.d0[i], m.d1[i], m.d2[i], m.far_squared[i], m.edge_squared[i])
+    costs[i] = believable(m.system.d0[i], m.system.d1[i], m.system.d2[i], m.far_squared[i], m.edge_squared[i])
                    ? at_least_zero(m.cost[i])
                    : cost_edge(surface, a[i], b[i], placement).cost;
   }

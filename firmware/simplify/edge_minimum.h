@@ -27,19 +27,27 @@ struct QuadricOf {
 };
 
 // In a flat or straight neighbourhood the quadric is least along a whole plane or line, and rounding would choose the
-// place. A faint pull towards the edge's middle chooses instead; its strength relative to the quadric's weight. Solving
-// once more with the pull towards the first solution takes it out again where the quadric does have a minimum (iterated
-// Tikhonov regularisation). Chosen by measuring.
+// place. A faint pull towards the edge's middle chooses instead; its strength relative to the quadric's weight. Chosen by
+// measuring.
 inline constexpr float kPull = 3e-4f;
+
+/// A + pull I = L D L' (A is positive semidefinite: no pivoting needed).
+template <class F>
+struct PulledSystem {
+  F pull;
+  F d0, d1, d2;     // pivots: not above zero (or not a number) where there is no minimum
+  F r0, r1, r2;     // their reciprocals
+  F l10, l20, l21;  // L
+};
 
 template <class F>
 struct EdgeMinimum {
-  QuadricOf<F> sum;         // relative to the first end
-  Vec3Of<F> offset;         // from the first end
-  F cost;                   // sum(offset), before clamping at zero
-  F far_squared;            // from the edge's middle
+  QuadricOf<F> sum;  // relative to the first end
+  PulledSystem<F> system;
+  Vec3Of<F> offset;  // from the first end
+  F cost;            // sum(offset), before clamping at zero
+  F far_squared;     // from the edge's middle
   F edge_squared;
-  F d0, d1, d2;             // pivots: not above zero (or not a number) where there is no minimum
 };
 
 template <class F>
@@ -50,7 +58,7 @@ inline Vec3Of<F> multiply(const QuadricOf<F>& q, const Vec3Of<F>& x) {
 
 /// `b`'s owner lies at `edge` from `a`'s.
 template <class F>
-inline void sum_quadrics(const QuadricOf<F>& a, const QuadricOf<F>& b, const Vec3Of<F>& edge, QuadricOf<F>& sum) {
+[[gnu::always_inline]] inline void sum_quadrics(const QuadricOf<F>& a, const QuadricOf<F>& b, const Vec3Of<F>& edge, QuadricOf<F>& sum) {
   const Vec3Of<F> t = multiply(b, edge);
   const Vec3Of<F> moved = {b.b.x - t.x, b.b.y - t.y, b.b.z - t.z};
   const Vec3Of<F> both = {b.b.x + moved.x, b.b.y + moved.y, b.b.z + moved.z};
@@ -64,38 +72,45 @@ inline void sum_quadrics(const QuadricOf<F>& a, const QuadricOf<F>& b, const Vec
   sum.c = a.c + (b.c - dot(edge, both));
 }
 
-/// Solves (A + pull I) x = pull m - b by L D L' (A is positive semidefinite: no pivoting needed), m the edge's middle and
-/// then the first solution.
 template <class F>
-inline void minimise(const Vec3Of<F>& edge, EdgeMinimum<F>& r) {
+[[gnu::always_inline]] inline void factorise(const QuadricOf<F>& q, PulledSystem<F>& s) {
+  s.pull = (q.xx + q.yy + q.zz) * kPull;
+  s.d0 = q.xx + s.pull;
+  s.r0 = 1.0f / s.d0;
+  s.l10 = q.xy * s.r0;
+  s.l20 = q.xz * s.r0;
+  s.d1 = (q.yy + s.pull) - s.l10 * q.xy;
+  const F e21 = q.yz - s.l10 * q.xz;
+  s.r1 = 1.0f / s.d1;
+  s.l21 = e21 * s.r1;
+  s.d2 = ((q.zz + s.pull) - s.l20 * q.xz) - s.l21 * e21;
+  s.r2 = 1.0f / s.d2;
+}
+
+/// Where q(x) + pull |x - towards|^2 is least.
+template <class F>
+[[gnu::always_inline]] inline Vec3Of<F> solve(const QuadricOf<F>& q, const PulledSystem<F>& s, const Vec3Of<F>& towards) {
+  const F y0 = s.pull * towards.x - q.b.x;
+  const F y1 = (s.pull * towards.y - q.b.y) - s.l10 * y0;
+  const F y2 = ((s.pull * towards.z - q.b.z) - s.l20 * y0) - s.l21 * y1;
+  const F z = y2 * s.r2;
+  const F y = y1 * s.r1 - s.l21 * z;
+  return {(y0 * s.r0 - s.l10 * y) - s.l20 * z, y, z};
+}
+
+/// The minimum under the pull towards the edge's middle, and its cost: there A x = pull (m - x) - b, which saves a
+/// multiplication in q(x) = c + x . (A x + 2 b).
+template <class F>
+[[gnu::always_inline]] inline void minimise(const Vec3Of<F>& edge, EdgeMinimum<F>& r) {
   const QuadricOf<F>& q = r.sum;
-  const F pull = (q.xx + q.yy + q.zz) * kPull;
+  factorise(q, r.system);
   const Vec3Of<F> middle = {edge.x * 0.5f, edge.y * 0.5f, edge.z * 0.5f};
-  r.d0 = q.xx + pull;
-  const F r0 = 1.0f / r.d0;
-  const F l10 = q.xy * r0;
-  const F l20 = q.xz * r0;
-  r.d1 = (q.yy + pull) - l10 * q.xy;
-  const F e21 = q.yz - l10 * q.xz;
-  const F r1 = 1.0f / r.d1;
-  const F l21 = e21 * r1;
-  r.d2 = ((q.zz + pull) - l20 * q.xz) - l21 * e21;
-  const F r2 = 1.0f / r.d2;
-  Vec3Of<F> x = middle;
-  for (int pass = 0; pass < 2; ++pass) {
-    const F y0 = pull * x.x - q.b.x;
-    const F y1 = (pull * x.y - q.b.y) - l10 * y0;
-    const F y2 = ((pull * x.z - q.b.z) - l20 * y0) - l21 * y1;
-    x.z = y2 * r2;
-    x.y = y1 * r1 - l21 * x.z;
-    x.x = (y0 * r0 - l10 * x.y) - l20 * x.z;
-  }
+  const Vec3Of<F> x = solve(q, r.system, middle);
+  const Vec3Of<F> back = {middle.x - x.x, middle.y - x.y, middle.z - x.z};
+  const Vec3Of<F> slope = {q.b.x + r.system.pull * back.x, q.b.y + r.system.pull * back.y, q.b.z + r.system.pull * back.z};
   r.offset = x;
-  const Vec3Of<F> ax = multiply(q, x);
-  const Vec3Of<F> slope = {ax.x + q.b.x * 2.0f, ax.y + q.b.y * 2.0f, ax.z + q.b.z * 2.0f};
-  r.cost = dot(x, slope) + q.c;
-  const Vec3Of<F> away = {x.x - middle.x, x.y - middle.y, x.z - middle.z};
-  r.far_squared = dot(away, away);
+  r.cost = q.c + dot(x, slope);
+  r.far_squared = dot(back, back);
   r.edge_squared = dot(edge, edge);
 }
 

@@ -43,6 +43,9 @@ class EdgeQueue {
   bool empty() const { return run_begin_ == slots_.size() && heap_size_ == 0; }
   EdgeKey top() const;
   EdgeKey pop();
+  /// Keys of the sorted run still to come, and the i-th of them.
+  std::size_t run_left() const { return slots_.size() - run_begin_; }
+  EdgeKey in_run(std::size_t i) const { return slots_[run_begin_ + i]; }
   /// False, and nothing kept, where the key is beyond the horizon or there is no room.
   bool push(EdgeKey key);
 

@@ -24,10 +24,14 @@ constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add 
 constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 // A quarter of a closed surface's edges. A fill's horizon is then low, so that most edges that grow dearer leave the queue
-// at once and are found again, four at a time, by a later fill; more slots were measured to be slower.
+// at once and are found again, four at a time, by a later fill; more slots were measured to be slower. Small meshes take
+// all their edges: there a fill is what costs. Both numbers by measuring.
+constexpr std::size_t kSlotsOfSmallMeshes = 4096;
 constexpr std::size_t queue_slots(std::uint32_t face_count) {
-  const std::size_t slots = std::size_t{face_count} * 3 / 8;
-  return slots > EdgeQueue::kLeastSlots ? slots : EdgeQueue::kLeastSlots;
+  const std::size_t some = std::size_t{face_count} * 3 / 8;
+  const std::size_t all = std::size_t{face_count} * 3 / 2 + EdgeQueue::kLeastSlots;
+  const std::size_t least = all < kSlotsOfSmallMeshes ? all : kSlotsOfSmallMeshes;
+  return some > least ? some : least;
 }
 
 // The welding table lies where links and queue come to lie later.
@@ -79,7 +83,9 @@ class QemSimplifier {
   void build_connectivity();
   void copy_positions();
   void collapse_to_target();
+  void fetch_ahead();
   bool fill_queue();
+  void offer_four(const Corner* edges, std::uint32_t count);
   void push_edge(Corner edge);
   bool try_collapse(Corner edge, const EdgeCost& cost);
   void refuse(Corner edge);
@@ -165,6 +171,7 @@ void QemSimplifier::collapse_to_target() {
       return;
     }
     const EdgeKey key = queue_.pop();
+    fetch_ahead();
     ++outcome_.work.queue_operations;
     const Corner edge = edge_of(key);
     // Its face may be gone, or another half-edge may stand for the edge now.
@@ -180,38 +187,62 @@ void QemSimplifier::collapse_to_target() {
   }
 }
 
+// What the next edges of the run will need is asked for while this one is worked on; they lie anywhere in memory.
+void QemSimplifier::fetch_ahead() {
+  constexpr std::size_t kFar = 8, kNear = 4;
+  if (queue_.run_left() <= kFar) return;
+  const std::size_t far = corner_index(edge_of(queue_.in_run(kFar)));
+  __builtin_prefetch(&surface_.next_corner[far]);
+  __builtin_prefetch(&surface_.indices[far]);
+  const Corner near = edge_of(queue_.in_run(kNear));
+  if ((surface_.next_corner[corner_index(near)] & kRepresentative) == 0) return;
+  for (const Corner c : {near, next_in_face(near)}) {
+    const std::uint32_t v = surface_.vertex_at(c);
+    __builtin_prefetch(&surface_.places[v]);
+    __builtin_prefetch(&surface_.vertices[v]);
+    __builtin_prefetch(&surface_.vertices[v].first_corner);
+  }
+}
+
 /// All edges but the refused ones, as many of the cheapest as fit. False where there is none.
 bool QemSimplifier::fill_queue() {
   queue_.begin_fill();
-  Corner edges[4];
-  std::uint32_t a[4], b[4];
-  std::uint32_t waiting = 0;
-  auto offer_waiting = [&] {
-    float costs[4];
-    cost_four_edges(surface_, a, b, options_.placement, costs);
-    for (std::uint32_t i = 0; i < waiting; ++i) queue_.offer(edge_key(costs[i], edges[i]));
-    outcome_.work.edges_costed += waiting;
-    outcome_.work.queue_operations += waiting;
-    waiting = 0;
-  };
+  Corner waiting[4 + 2];  // four are costed together; the last face's others wait
+  std::uint32_t count = 0;
   for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
-    for (Corner c = face * 4; c < face * 4 + 3; ++c) {
-      if ((surface_.next_corner[corner_index(c)] & (kRepresentative | kRefused)) != kRepresentative) continue;
-      edges[waiting] = c;
-      a[waiting] = surface_.vertex_at(c);
-      b[waiting] = surface_.vertex_at(next_in_face(c));
-      if (++waiting == 4) offer_waiting();
+    const std::uint32_t* links = surface_.next_corner + std::size_t{face} * 3;
+    if (((links[0] | links[1] | links[2]) & kRepresentative) == 0) continue;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      // Stored in any case, counted where it stands for an edge: as good as random, so no branch.
+      waiting[count] = face * 4 + k;
+      count += (links[k] & (kRepresentative | kRefused)) == kRepresentative ? 1u : 0u;
     }
+    if (count < 4) continue;
+    offer_four(waiting, 4);
+    count -= 4;
+    waiting[0] = waiting[4];
+    waiting[1] = waiting[5];
   }
-  if (waiting > 0) {
-    for (std::uint32_t i = waiting; i < 4; ++i) {
-      a[i] = a[0];
-      b[i] = b[0];
-    }
-    offer_waiting();
+  if (count > 0) {
+    for (std::uint32_t i = count; i < 4; ++i) waiting[i] = waiting[0];
+    offer_four(waiting, count);
   }
   queue_.end_fill();
   return !queue_.empty();
+}
+
+/// Costs four edges and offers the first `count`.
+void QemSimplifier::offer_four(const Corner* edges, std::uint32_t count) {
+  std::uint32_t a[4], b[4];
+  for (int i = 0; i < 4; ++i) {
+    a[i] = surface_.vertex_at(edges[i]);
+    b[i] = surface_.vertex_at(next_in_face(edges[i]));
+  }
+  float costs[4];
+  cost_four_edges(surface_, a, b, options_.placement, costs);
+  for (std::uint32_t i = 0; i < count; ++i) queue_.offer(edge_key(costs[i], edges[i]));
+  outcome_.work.edges_costed += count;
+  outcome_.work.queue_operations += count;
 }
 
 void QemSimplifier::push_edge(Corner edge) {

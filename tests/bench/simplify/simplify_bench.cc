@@ -22,7 +22,7 @@ namespace {
 
 using testing::Mesh;
 
-constexpr int kRounds = 7;           // of each side, in turn; the least time counts
+constexpr int kRounds = 9;           // of each side, in turn; the least time counts
 constexpr double kPercents[] = {50, 20, 5, 1};
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -66,7 +66,7 @@ void run_theirs(const Mesh& input, std::size_t target_faces, Run& run) {
 struct Row {
   std::string name;
   double time = 0, rms = 0, hausdorff = 0, scratch = 0;
-  std::size_t new_non_manifold = 0, flipped = 0, flipped_theirs = 0, faces = 0, faces_theirs = 0;
+  std::size_t new_non_manifold = 0, flipped = 0, flipped_theirs = 0, faces = 0, faces_theirs = 0, target = 0;
   double ours_ms = 0, theirs_ms = 0;
 };
 std::vector<Row> rows;
@@ -76,12 +76,14 @@ Row compare(const Model& model, double percent) {
   const auto target = static_cast<std::size_t>(static_cast<double>(input.face_count()) * percent / 100);
   std::vector<std::byte> memory;
   Run ours, theirs;
-  // Theirs may stop short of the target; ours then thins to the count it reached.
+  // To the same count: either may stop short of the target, theirs for want of slack in its passes, ours because the
+  // surface's topology allows no less (a closed part keeps four faces). Both are then measured at the higher of the two.
   run_theirs(input, target, theirs);
-  const std::size_t reached = theirs.mesh.face_count();
+  run_ours(input, theirs.mesh.face_count(), memory, ours);
+  const std::size_t reached = std::max(theirs.mesh.face_count(), ours.mesh.face_count());
   for (int round = 0; round < kRounds; ++round) {
     run_ours(input, reached, memory, ours);
-    run_theirs(input, target, theirs);
+    run_theirs(input, reached, theirs);
   }
   const SurfaceError e = measure_error(input, ours.mesh), e0 = measure_error(input, theirs.mesh);
   Row row;
@@ -96,7 +98,8 @@ Row compare(const Model& model, double percent) {
   row.flipped = count_flipped_faces(input, ours.mesh, e.rms);
   row.flipped_theirs = count_flipped_faces(input, theirs.mesh, e0.rms);
   row.faces = ours.mesh.face_count();
-  row.faces_theirs = reached;
+  row.faces_theirs = theirs.mesh.face_count();
+  row.target = target;
   row.ours_ms = ours.ms;
   row.theirs_ms = theirs.ms;
   return row;
@@ -171,7 +174,7 @@ void print_report() {
     for (const Row& r : rows) {
       std::printf("%-16s %8zu %8.2f %9.2f | %7.3fx %7.3fx %7.3fx | %9.1f %7zu %7zu(%zu)%s\n", r.name.c_str(), r.faces, r.ours_ms,
                   r.theirs_ms, r.time, r.rms, r.hausdorff, r.scratch, r.new_non_manifold, r.flipped, r.flipped_theirs,
-                  r.faces > r.faces_theirs ? "  MORE FACES THAN MESHOPT" : "");
+                  r.faces > r.target + 2 ? ("  stopped above the " + std::to_string(r.target) + " asked").c_str() : "");
       non_manifold += r.new_non_manifold;
       flipped += r.flipped;
       flipped_theirs += r.flipped_theirs;
