@@ -32,10 +32,14 @@ int inspect(const InspectOptions& options) {
 
 void add_inspect_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<InspectOptions>();
-  CLI::App* command = app.add_subcommand("inspect", "Say what is in a ROM image, mesh by mesh, and whether it is sound");
+  CLI::App* command =
+      app.add_subcommand("inspect", "Say what is in a ROM image, mesh by mesh, and whether it is sound");
   command->add_option("ROM", options->rom, "ROM image: container or bare drawing data")->required();
-  command->add_flag("--json", options->json, "One JSON object instead of the table; {\"sound\": false, ...} for a damaged ROM");
-  command->footer("Example:\n  usuzumi inspect car.rom --json | jq '.meshes[] | {name, level, faces}'\nExit code 3 where the ROM is damaged.");
+  command->add_flag("--json", options->json,
+                    "One JSON object instead of the table; {\"sound\": false, ...} for a damaged ROM");
+  command->footer(
+      "Example:\n  usuzumi inspect car.rom --json | jq '.meshes[] | {name, level, faces}'\nExit code 3 where the ROM "
+      "is damaged.");
   command->callback([options, &exit_code] { run_command(exit_code, [&] { return inspect(*options); }); });
 }
 

@@ -62,15 +62,21 @@ std::vector<TagRule> sidecar_rules(const PackOptions& options) {
 void check_bare_can_keep(const std::vector<TagRule>& rules, ExitCode code) {
   for (const TagRule& rule : rules)
     if (rule.tags.quota || rule.tags.area_threshold_px || rule.tags.telltale)
-      throw Error(code, fmt::format("{}: --bare keeps levels only, no quota, area or telltale; leave --bare or this out", rule.origin));
+      throw Error(code,
+                  fmt::format("{}: --bare keeps levels only, no quota, area or telltale; leave --bare or this out",
+                              rule.origin));
 }
 
 void note_what_bare_loses(Model& model) {
   const auto tagged = std::count_if(model.meshes.begin(), model.meshes.end(), [](const Mesh& mesh) {
     return mesh.tags.quota || mesh.tags.area_threshold_px || mesh.tags.telltale;
   });
-  model.notes.push_back("bare drawing data keep positions, faces (as one strip a mesh) and levels; names, normals, colours and sidedness are lost");
-  if (tagged > 0) model.notes.push_back(fmt::format("face quotas, area thresholds or telltale marks of {} meshes are lost as well", tagged));
+  model.notes.push_back(
+      "bare drawing data keep positions, faces (as one strip a mesh) and levels; names, normals, colours and sidedness "
+      "are lost");
+  if (tagged > 0)
+    model.notes.push_back(
+        fmt::format("face quotas, area thresholds or telltale marks of {} meshes are lost as well", tagged));
 }
 
 void check_output_is_no_input(const PackOptions& options) {
@@ -85,7 +91,8 @@ void check_output_is_no_input(const PackOptions& options) {
 
 void print_notes(const Model& model) {
   constexpr std::size_t kMost = 30;
-  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i) fmt::print(stderr, "note: {}\n", model.notes[i]);
+  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i)
+    fmt::print(stderr, "note: {}\n", model.notes[i]);
   if (model.notes.size() > kMost) fmt::print(stderr, "note: and {} more of this kind\n", model.notes.size() - kMost);
 }
 
@@ -95,8 +102,8 @@ void print_summary(const PackOptions& options, const Model& model, std::size_t b
     vertices += mesh.positions.size();
     faces += mesh.face_count();
   }
-  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes\n", options.output, options.bare ? "bare drawing data" : "container",
-             model.meshes.size(), vertices, faces, bytes);
+  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes\n", options.output,
+             options.bare ? "bare drawing data" : "container", model.meshes.size(), vertices, faces, bytes);
 }
 
 int pack(const PackOptions& options) {
@@ -113,7 +120,9 @@ int pack(const PackOptions& options) {
 
   const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
   const auto opened = firmware::DrawingData::open(rom);
-  if (!opened.ok()) throw std::logic_error(fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
+  if (!opened.ok())
+    throw std::logic_error(
+        fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
   write_file_atomically(options.output, rom);
   print_notes(model);
   print_summary(options, model, rom.size());
@@ -147,7 +156,8 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--quota", options->quotas, "Faces to keep at level 3: a count or a share")->type_name("NAME=N|P%");
   repeated("--area", options->areas, "Area on screen up to which level 2 or 3 acts, in pixels")->type_name("NAME=PX");
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
-  command->add_option("--default-level", options->default_level, "Level of the meshes that have none")->check(CLI::Range(0, 5));
+  command->add_option("--default-level", options->default_level, "Level of the meshes that have none")
+      ->check(CLI::Range(0, 5));
   command->add_flag("--bare", options->bare, "Write the patent's layout alone: strips of positions, and levels");
   command->add_option("--time-limit", options->time_limit_s, "Seconds after which reading a file is given up")
       ->check(CLI::Range(1, 86400))

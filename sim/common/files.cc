@@ -39,7 +39,8 @@ class Descriptor {
 };
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
-  throw Error(ExitCode::kCannotWrite, fmt::format("{}: cannot write: {}; choose another place or free this one", path.string(), why));
+  throw Error(ExitCode::kCannotWrite,
+              fmt::format("{}: cannot write: {}; choose another place or free this one", path.string(), why));
 }
 
 /// False with errno on failure.
@@ -92,8 +93,8 @@ std::vector<std::byte> read_file(const fs::path& path, std::uint64_t max_bytes) 
   if (S_ISDIR(info.st_mode)) fail("it is a folder");
   auto check_size = [&](std::uint64_t size) {
     if (size > max_bytes)
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("{}: larger than {} bytes, the most that is read here; split it", path.string(), max_bytes));
+      throw Error(ExitCode::kBadInput, fmt::format("{}: larger than {} bytes, the most that is read here; split it",
+                                                   path.string(), max_bytes));
   };
   check_size(static_cast<std::uint64_t>(info.st_size));
   std::vector<std::byte> bytes;

@@ -10,11 +10,13 @@
 
 namespace usuzumi::sim {
 
-/// All bytes of a regular file (or of a pipe). Throws Error kBadInput: missing, a folder, unreadable, above `max_bytes`.
+/// All bytes of a regular file (or of a pipe). Throws Error kBadInput: missing, a folder, unreadable, above
+/// `max_bytes`.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes = std::uint64_t{4} << 30);
 
 /// Writes `bytes` to a temporary file in the folder of `path` and renames it. On failure the temporary file is gone, an
-/// existing file at `path` is as it was, and Error kCannotWrite says why. A device or pipe (/dev/stdout) is written directly.
+/// existing file at `path` is as it was, and Error kCannotWrite says why. A device or pipe (/dev/stdout) is written
+/// directly.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 

@@ -21,9 +21,11 @@ void run_command(int& exit_code, const std::function<int()>& body) {
   } catch (const Error& e) {
     report(e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    report(ExitCode::kDevice, "this computer has too little memory for that; close other programs or use a smaller model");
+    report(ExitCode::kDevice,
+           "this computer has too little memory for that; close other programs or use a smaller model");
   } catch (const std::exception& e) {
-    report(ExitCode::kDevice, fmt::format("a mistake of ours: {}; please report it with the command line", e.what()).c_str());
+    report(ExitCode::kDevice,
+           fmt::format("a mistake of ours: {}; please report it with the command line", e.what()).c_str());
   }
 }
 

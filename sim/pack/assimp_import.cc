@@ -43,9 +43,11 @@ Vec3 to_vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 class AssimpScene {
  public:
-  AssimpScene(const fs::path& path, const aiScene& scene) : file_(path.string()), stem_(path.stem().string()), scene_(scene) {
+  AssimpScene(const fs::path& path, const aiScene& scene)
+      : file_(path.string()), stem_(path.stem().string()), scene_(scene) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     // STL repeats its facets' normals at every corner, so that each edge would be a border; faces tell the same.
     facet_normals_only_ = extension == ".stl";
   }
@@ -61,7 +63,8 @@ class AssimpScene {
       const Visit visit = stack.back();
       stack.pop_back();
       const Transform world = visit.parent * to_transform(visit.node->mTransformation);
-      if (!world.finite()) refuse(fmt::format("node '{}' has a transform that is not finite", visit.node->mName.C_Str()));
+      if (!world.finite())
+        refuse(fmt::format("node '{}' has a transform that is not finite", visit.node->mName.C_Str()));
       for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) add_mesh(visit.node->mMeshes[i], *visit.node, world);
       for (unsigned i = visit.node->mNumChildren; i-- > 0;) stack.push_back({visit.node->mChildren[i], world});
     }
@@ -88,8 +91,9 @@ class AssimpScene {
     apply(world, mesh);
     model_.meshes.push_back(std::move(mesh));
     if (model_.meshes.size() > firmware::format::kMaxMeshes)
-      throw Error(ExitCode::kBadInput, fmt::format("{}: more than {} meshes, which is more than drawing data hold; join some", file_,
-                                                   firmware::format::kMaxMeshes));
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("{}: more than {} meshes, which is more than drawing data hold; join some", file_,
+                              firmware::format::kMaxMeshes));
   }
 
   void read_faces(const aiMesh& source, Mesh& mesh) {
@@ -101,7 +105,8 @@ class AssimpScene {
       }
       for (unsigned k = 0; k < 3; ++k) {
         if (face.mIndices[k] >= source.mNumVertices)
-          refuse(fmt::format("mesh '{}' refers to vertex {} of {}", mesh.mesh_name, face.mIndices[k], source.mNumVertices));
+          refuse(fmt::format("mesh '{}' refers to vertex {} of {}", mesh.mesh_name, face.mIndices[k],
+                             source.mNumVertices));
         mesh.indices.push_back(face.mIndices[k]);
       }
     }
@@ -137,7 +142,8 @@ class AssimpScene {
 
   void note_what_is_left_out() {
     auto note = [&](const std::string& text) { model_.notes.push_back(file_ + ": " + text); };
-    if (points_and_lines_ > 0) note(fmt::format("{} points and lines are left out: drawing data hold faces", points_and_lines_));
+    if (points_and_lines_ > 0)
+      note(fmt::format("{} points and lines are left out: drawing data hold faces", points_and_lines_));
     if (textured_ > 0) note(fmt::format("textures of {} meshes are left out; their base colour stays", textured_));
     if (scene_.mNumAnimations > 0) note(fmt::format("{} animations are left out", scene_.mNumAnimations));
   }
@@ -153,13 +159,15 @@ class AssimpScene {
 
 Model import_assimp(const fs::path& path) {
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // names as people gave them, not identifiers
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES,
+                           true);  // names as people gave them, not identifiers
   // assimp's own validation would refuse a whole file for one empty mesh; what it checks is checked here.
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   if (scene == nullptr) {
     const std::string why = importer.GetErrorString();
     if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
-    throw Error(ExitCode::kBadInput, fmt::format("{}: cannot be read: {}; export it again, best as .glb", path.string(), one_line(why)));
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{}: cannot be read: {}; export it again, best as .glb", path.string(), one_line(why)));
   }
   return AssimpScene(path, *scene).import();
 }

@@ -1,8 +1,9 @@
-// Colours as drawing data keep them: display-referred (sRGB) bytes, so that the picture looks as it did in the modelling tool.
+// Colours as drawing data keep them: display-referred (sRGB) bytes, so that the picture looks as it did in the
+// modelling tool.
 //
-// glTF 2.0 gives colours as linear light (section 3.9.2 and 3.7.2.1); the device adds light to stored bytes as they are and
-// shows them, so pack encodes them with the sRGB curve (IEC 61966-2-1). OBJ, PLY, DAE, AC and glTF 1.0 name no colour space;
-// their colours are taken as display-referred already. Alpha is never encoded.
+// glTF 2.0 gives colours as linear light (section 3.9.2 and 3.7.2.1); the device adds light to stored bytes as they are
+// and shows them, so pack encodes them with the sRGB curve (IEC 61966-2-1). OBJ, PLY, DAE, AC and glTF 1.0 name no
+// colour space; their colours are taken as display-referred already. Alpha is never encoded.
 #pragma once
 
 #include <cmath>

@@ -27,8 +27,8 @@ constexpr std::uint32_t kGlbMagic = 0x46546C67, kJsonChunk = 0x4E4F534A;
 constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8, kGlb1HeaderBytes = 20;
 
 /// Extensions that change nothing of the geometry, or that are read here; a file may require them.
-constexpr std::array<std::string_view, 6> kHarmlessPrefixes{"KHR_materials_", "KHR_texture_",         "EXT_texture_",
-                                                            "MSFT_texture_",  "KHR_lights_punctual", "KHR_technique_webgl"};
+constexpr std::array<std::string_view, 6> kHarmlessPrefixes{
+    "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_punctual", "KHR_technique_webgl"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw Error(ExitCode::kBadInput, fmt::format("{}: {}", path.string(), why));
@@ -49,12 +49,14 @@ std::string_view glb_json(const fs::path& path, GltfFile& file) {
   const auto& b = file.bytes;
   if (b.size() < kGlb1HeaderBytes) refuse(path, "the file ends inside its header; export it again");
   const std::uint32_t version = word(b, 4), length = word(b, 8), json_bytes = word(b, 12);
-  if (version != 1 && version != 2) refuse(path, fmt::format("binary glTF of version {}, but 1 and 2 are read; export it as glTF 2.0", version));
+  if (version != 1 && version != 2)
+    refuse(path, fmt::format("binary glTF of version {}, but 1 and 2 are read; export it as glTF 2.0", version));
   if (length > b.size())
     refuse(path, fmt::format("truncated: {} bytes of {}; copy or export it again", b.size(), length));
   file.version_major = static_cast<int>(version);
   if (version == 2 && word(b, 16) != kJsonChunk) refuse(path, "its first chunk is not JSON; export it again");
-  const std::size_t start = kGlbHeaderBytes + kChunkHeaderBytes;  // version 1: a 20-byte header that ends in length and format
+  const std::size_t start =
+      kGlbHeaderBytes + kChunkHeaderBytes;  // version 1: a 20-byte header that ends in length and format
   if (json_bytes > b.size() - start) refuse(path, "its JSON runs past the end of the file; copy or export it again");
   return text_of(b, start, json_bytes);
 }
@@ -84,7 +86,8 @@ int major_version(const fs::path& path, const json& root) {
   const std::string version = v.is_string() ? v.get<std::string>() : v.dump();
   if (version.starts_with("2.") || version == "2") return 2;
   if (version.starts_with("1.") || version == "1") return 1;
-  refuse(path, fmt::format("glTF of version {}, but 1.0 and 2.x are read; export it as glTF 2.0", version.substr(0, 20)));
+  refuse(path,
+         fmt::format("glTF of version {}, but 1.0 and 2.x are read; export it as glTF 2.0", version.substr(0, 20)));
 }
 
 void check_required_extensions(const fs::path& path, const json& root) {
@@ -94,14 +97,20 @@ void check_required_extensions(const fs::path& path, const json& root) {
   for (const json& entry : *required) {
     const std::string name = entry.is_string() ? entry.get<std::string>() : entry.dump().substr(0, 40);
     if (name == "KHR_draco_mesh_compression")
-      refuse(path, "its meshes are compressed with Draco, which is not read here; export it again with compression off (Blender: "
-                   "Export glTF > Data > Compression), or run gltf-transform copy");
+      refuse(path,
+             "its meshes are compressed with Draco, which is not read here; export it again with compression off "
+             "(Blender: "
+             "Export glTF > Data > Compression), or run gltf-transform copy");
     if (name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
-      refuse(path, "its buffers are compressed with meshopt, which is not read here; export it again without compression, or run "
-                   "gltf-transform copy (gltfpack: leave out -c and -cc)");
-    const bool harmless = name == "KHR_mesh_quantization" ||
-                          std::any_of(kHarmlessPrefixes.begin(), kHarmlessPrefixes.end(), [&](std::string_view p) { return name.starts_with(p); });
-    if (!harmless) refuse(path, fmt::format("it requires the extension {}, which is not known here; export it without", name));
+      refuse(path,
+             "its buffers are compressed with meshopt, which is not read here; export it again without compression, or "
+             "run "
+             "gltf-transform copy (gltfpack: leave out -c and -cc)");
+    const bool harmless =
+        name == "KHR_mesh_quantization" || std::any_of(kHarmlessPrefixes.begin(), kHarmlessPrefixes.end(),
+                                                       [&](std::string_view p) { return name.starts_with(p); });
+    if (!harmless)
+      refuse(path, fmt::format("it requires the extension {}, which is not known here; export it without", name));
   }
 }
 
@@ -118,17 +127,22 @@ void find_buffer_files(const fs::path& path, const json& root, GltfFile& gltf) {
     const fs::path file = path.parent_path() / decoded_uri(text);
     std::error_code none;
     if (!fs::is_regular_file(file, none))
-      refuse(path, fmt::format("its buffer file {} is missing; put it beside the model, or export as .glb", file.string()));
+      refuse(path,
+             fmt::format("its buffer file {} is missing; put it beside the model, or export as .glb", file.string()));
     const auto length = buffer.find("byteLength");
-    const std::uint64_t bytes = length != buffer.end() && length->is_number_unsigned() ? length->get<std::uint64_t>() : 0;
+    const std::uint64_t bytes =
+        length != buffer.end() && length->is_number_unsigned() ? length->get<std::uint64_t>() : 0;
     if (bytes > fs::file_size(file, none))
-      refuse(path, fmt::format("its buffer file {} is shorter than the {} bytes it should have; copy or export it again", file.string(), bytes));
+      refuse(path,
+             fmt::format("its buffer file {} is shorter than the {} bytes it should have; copy or export it again",
+                         file.string(), bytes));
     gltf.buffer_files[decoded_uri(text)] = bytes;
   }
 }
 
 /// Names and thinning properties of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by identifier there.
-std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind, std::vector<std::string>& notes) {
+std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind,
+                                              std::vector<std::string>& notes) {
   std::map<std::string, Gltf1Label> labels;
   const auto all = root.find(kind);
   if (all == root.end() || !all->is_object()) return labels;

@@ -20,15 +20,17 @@ struct Gltf1Label {
 
 struct GltfFile {
   std::vector<std::byte> bytes;
-  bool binary = false;     // .glb
-  int version_major = 2;   // 1 or 2
-  std::map<std::string, std::uint64_t> buffer_files;  // of buffers that lie in files beside: name -> bytes the buffer takes of it
+  bool binary = false;    // .glb
+  int version_major = 2;  // 1 or 2
+  std::map<std::string, std::uint64_t>
+      buffer_files;  // of buffers that lie in files beside: name -> bytes the buffer takes of it
   std::map<std::string, Gltf1Label> gltf1_nodes, gltf1_meshes;  // glTF 1.0 only, by identifier
   std::vector<std::string> notes;
 };
 
-/// Reads `path` and checks, without following it into accessors: container and JSON are whole, the version is 1 or 2, every
-/// required extension is known here, the files of all buffers are there. Throws Error kBadInput that says what to do.
+/// Reads `path` and checks, without following it into accessors: container and JSON are whole, the version is 1 or 2,
+/// every required extension is known here, the files of all buffers are there. Throws Error kBadInput that says what to
+/// do.
 GltfFile open_gltf(const std::filesystem::path& path);
 
 }  // namespace usuzumi::sim

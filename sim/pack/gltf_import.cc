@@ -36,12 +36,15 @@ struct BufferFolder {
 
   std::optional<std::pair<fs::path, std::uint64_t>> find(const std::string& wanted) const {
     for (const auto& [name, bytes] : *files)
-      if ((folder / name).lexically_normal() == fs::path(wanted).lexically_normal()) return std::pair{folder / name, bytes};
+      if ((folder / name).lexically_normal() == fs::path(wanted).lexically_normal())
+        return std::pair{folder / name, bytes};
     return std::nullopt;
   }
 };
 
-bool buffer_exists(const std::string& name, void* folder) { return static_cast<const BufferFolder*>(folder)->find(name).has_value(); }
+bool buffer_exists(const std::string& name, void* folder) {
+  return static_cast<const BufferFolder*>(folder)->find(name).has_value();
+}
 
 bool read_buffer(std::vector<unsigned char>* out, std::string* error, const std::string& name, void* folder) {
   const auto file = static_cast<const BufferFolder*>(folder)->find(name);
@@ -59,7 +62,9 @@ bool read_buffer(std::vector<unsigned char>* out, std::string* error, const std:
 
 std::string unexpanded(const std::string& name, void*) { return name; }
 
-bool leave_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
+bool leave_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
 
 tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   tinygltf::TinyGLTF loader;
@@ -73,7 +78,8 @@ tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(file.bytes.data());
   const auto size = static_cast<unsigned int>(file.bytes.size());
   const bool ok = file.binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes, size, folder.string())
-                              : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes), size, folder.string());
+                              : loader.LoadASCIIFromString(&model, &error, &warning,
+                                                           reinterpret_cast<const char*>(bytes), size, folder.string());
   // The loader goes on after some errors, having dropped what it could not read; the user must not lose it silently.
   if (!ok || !error.empty())
     throw Error(ExitCode::kBadInput, fmt::format("{}: damaged glTF: {}; export it again", path.string(),
@@ -109,13 +115,16 @@ class GltfImporter {
 
   void read_extras() {
     for (std::size_t i = 0; i < gltf_.meshes.size(); ++i)
-      mesh_tags_.push_back(tags_from_extras(properties(gltf_.meshes[i].extras_json_string), file_, described("mesh", i, gltf_.meshes[i].name), model_.notes));
+      mesh_tags_.push_back(tags_from_extras(properties(gltf_.meshes[i].extras_json_string), file_,
+                                            described("mesh", i, gltf_.meshes[i].name), model_.notes));
     for (std::size_t i = 0; i < gltf_.nodes.size(); ++i) {
       const tinygltf::Node& node = gltf_.nodes[i];
       const std::string whose = described("node", i, node.name);
       node_tags_.push_back(tags_from_extras(properties(node.extras_json_string), file_, whose, model_.notes));
       if (node_tags_.back().any() && node.mesh < 0)
-        model_.notes.push_back(fmt::format("{}: {} has thinning properties but no mesh, so they do nothing; give them to the nodes with meshes", file_, whose));
+        model_.notes.push_back(fmt::format(
+            "{}: {} has thinning properties but no mesh, so they do nothing; give them to the nodes with meshes", file_,
+            whose));
     }
   }
 
@@ -156,7 +165,8 @@ class GltfImporter {
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
-      if (visit.node < 0 || static_cast<std::size_t>(visit.node) >= gltf_.nodes.size()) refuse(fmt::format("node {} does not exist", visit.node));
+      if (visit.node < 0 || static_cast<std::size_t>(visit.node) >= gltf_.nodes.size())
+        refuse(fmt::format("node {} does not exist", visit.node));
       const auto i = static_cast<std::size_t>(visit.node);
       const tinygltf::Node& node = gltf_.nodes[i];
       if (visited[i]) refuse(described("node", i, node.name) + " appears twice in the node tree");
@@ -174,17 +184,20 @@ class GltfImporter {
   Transform local_transform(std::size_t i) const {
     const tinygltf::Node& node = gltf_.nodes[i];
     auto size_is = [&](const std::vector<double>& v, std::size_t n, const char* what) {
-      if (!v.empty() && v.size() != n) refuse(fmt::format("{}: {} has {} numbers, not {}", described("node", i, node.name), what, v.size(), n));
+      if (!v.empty() && v.size() != n)
+        refuse(fmt::format("{}: {} has {} numbers, not {}", described("node", i, node.name), what, v.size(), n));
       return !v.empty();
     };
     if (size_is(node.matrix, 16, "matrix")) {
       Transform t;
       for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 4; ++column) t.m[row][column] = node.matrix[column * 4 + row];  // column-major in glTF
+        for (std::size_t column = 0; column < 4; ++column)
+          t.m[row][column] = node.matrix[column * 4 + row];  // column-major in glTF
       return t;
     }
     double translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
-    if (size_is(node.translation, 3, "translation")) std::copy(node.translation.begin(), node.translation.end(), translation);
+    if (size_is(node.translation, 3, "translation"))
+      std::copy(node.translation.begin(), node.translation.end(), translation);
     if (size_is(node.rotation, 4, "rotation")) std::copy(node.rotation.begin(), node.rotation.end(), rotation);
     if (size_is(node.scale, 3, "scale")) std::copy(node.scale.begin(), node.scale.end(), scale);
     return from_parts(translation, rotation, scale);
@@ -193,7 +206,8 @@ class GltfImporter {
   void place_mesh(std::size_t node_index, const Transform& world) {
     const tinygltf::Node& node = gltf_.nodes[node_index];
     const auto m = static_cast<std::size_t>(node.mesh);
-    if (m >= gltf_.meshes.size()) refuse(fmt::format("{} places mesh {}, which does not exist", described("node", node_index, node.name), m));
+    if (m >= gltf_.meshes.size())
+      refuse(fmt::format("{} places mesh {}, which does not exist", described("node", node_index, node.name), m));
     if (node.skin >= 0) ++skinned_;
     add_mesh(m, node.name, merge_tags(node_tags_[node_index], mesh_tags_[m]), world);
   }
@@ -206,29 +220,35 @@ class GltfImporter {
       mesh.mesh_name = !source.name.empty() ? source.name : (!node_name.empty() ? node_name : stem_);
       mesh.node_name = node_name;
       mesh.tags = tags;
-      if (!read_primitive(source.primitives[p], fmt::format("{} primitive {}", described("mesh", m, source.name), p), mesh)) continue;
+      if (!read_primitive(source.primitives[p], fmt::format("{} primitive {}", described("mesh", m, source.name), p),
+                          mesh))
+        continue;
       apply(world, mesh);
       model_.meshes.push_back(std::move(mesh));
       if (model_.meshes.size() > firmware::format::kMaxMeshes)
-        throw Error(ExitCode::kBadInput, fmt::format("{}: more than {} primitives, which is more meshes than drawing data hold; join some", file_,
-                                                     firmware::format::kMaxMeshes));
+        throw Error(ExitCode::kBadInput,
+                    fmt::format("{}: more than {} primitives, which is more meshes than drawing data hold; join some",
+                                file_, firmware::format::kMaxMeshes));
     }
   }
 
   /// False where the primitive has nothing that can be drawn as faces.
   bool read_primitive(const tinygltf::Primitive& primitive, const std::string& what, Mesh& mesh) {
-    if (primitive.mode == TINYGLTF_MODE_POINTS || (primitive.mode >= TINYGLTF_MODE_LINE && primitive.mode <= TINYGLTF_MODE_LINE_STRIP)) {
+    if (primitive.mode == TINYGLTF_MODE_POINTS ||
+        (primitive.mode >= TINYGLTF_MODE_LINE && primitive.mode <= TINYGLTF_MODE_LINE_STRIP)) {
       pointy_.insert(what);
       return false;
     }
-    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) refuse(fmt::format("{} has the unknown mode {}", what, primitive.mode));
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+      refuse(fmt::format("{} has the unknown mode {}", what, primitive.mode));
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
       positionless_.insert(what);
       return false;
     }
     const Elements positions = accessors_.floats(position->second, 3, 3, "POSITION of " + what);
-    for (std::size_t i = 0; i < positions.count(); ++i) mesh.positions.push_back({positions.at(i)[0], positions.at(i)[1], positions.at(i)[2]});
+    for (std::size_t i = 0; i < positions.count(); ++i)
+      mesh.positions.push_back({positions.at(i)[0], positions.at(i)[1], positions.at(i)[2]});
     read_normals(primitive, what, mesh);
     read_colours(primitive, what, mesh);
     if (!primitive.targets.empty()) ++morphed_;
@@ -240,18 +260,20 @@ class GltfImporter {
       for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) order.push_back(i);
     }
     for (std::uint32_t i : order)
-      if (i >= mesh.positions.size()) refuse(fmt::format("{} refers to vertex {} of {}", what, i, mesh.positions.size()));
+      if (i >= mesh.positions.size())
+        refuse(fmt::format("{} refers to vertex {} of {}", what, i, mesh.positions.size()));
     const Assembly assembly = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ? Assembly::kStrip
                               : primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN ? Assembly::kFan
                                                                              : Assembly::kList;
     mesh.indices = assemble(assembly, order);
     if (assembly == Assembly::kList && order.size() % 3 != 0)
-      model_.notes.push_back(fmt::format("{}: {}: {} corners are no whole number of triangles; the last {} left out", file_, what, order.size(), order.size() % 3));
+      model_.notes.push_back(fmt::format("{}: {}: {} corners are no whole number of triangles; the last {} left out",
+                                         file_, what, order.size(), order.size() % 3));
     return true;
   }
 
-  Elements attribute(const tinygltf::Primitive& primitive, const char* name, std::size_t least, std::size_t most, const std::string& what,
-                     const Mesh& mesh) const {
+  Elements attribute(const tinygltf::Primitive& primitive, const char* name, std::size_t least, std::size_t most,
+                     const std::string& what, const Mesh& mesh) const {
     const auto at = primitive.attributes.find(name);
     if (at == primitive.attributes.end()) return {};
     Elements elements = accessors_.floats(at->second, least, most, fmt::format("{} of {}", name, what));
@@ -262,7 +284,8 @@ class GltfImporter {
 
   void read_normals(const tinygltf::Primitive& primitive, const std::string& what, Mesh& mesh) const {
     const Elements normals = attribute(primitive, "NORMAL", 3, 3, what, mesh);
-    for (std::size_t i = 0; i < normals.count(); ++i) mesh.normals.push_back({normals.at(i)[0], normals.at(i)[1], normals.at(i)[2]});
+    for (std::size_t i = 0; i < normals.count(); ++i)
+      mesh.normals.push_back({normals.at(i)[0], normals.at(i)[1], normals.at(i)[2]});
   }
 
   /// Vertex colours are multiplied by the material's factor, both in linear light (section 3.9.2).
@@ -279,7 +302,8 @@ class GltfImporter {
 
   ColourF read_material(int index, const std::string& what, Mesh& mesh) {
     if (index < 0) return {};
-    if (static_cast<std::size_t>(index) >= gltf_.materials.size()) refuse(fmt::format("{} uses material {}, which does not exist", what, index));
+    if (static_cast<std::size_t>(index) >= gltf_.materials.size())
+      refuse(fmt::format("{} uses material {}, which does not exist", what, index));
     const tinygltf::Material& material = gltf_.materials[static_cast<std::size_t>(index)];
     mesh.two_sided = material.doubleSided;
     if (material.pbrMetallicRoughness.baseColorTexture.index >= 0) ++textured_;
@@ -291,7 +315,9 @@ class GltfImporter {
     if (older != material.extensions.end() && older->second.Has("diffuseFactor")) {
       const tinygltf::Value& d = older->second.Get("diffuseFactor");
       auto part = [&](int i) {
-        return d.IsArray() && static_cast<std::size_t>(i) < d.ArrayLen() && d.Get(i).IsNumber() ? d.Get(i).GetNumberAsDouble() : 1.0;
+        return d.IsArray() && static_cast<std::size_t>(i) < d.ArrayLen() && d.Get(i).IsNumber()
+                   ? d.Get(i).GetNumberAsDouble()
+                   : 1.0;
       };
       factor = {part(0), part(1), part(2), part(3)};
     }
@@ -300,14 +326,16 @@ class GltfImporter {
 
   void note_what_is_left_out() {
     auto note = [&](const std::string& text) { model_.notes.push_back(file_ + ": " + text); };
-    for (const std::string& what : pointy_) note(what + " has points or lines, which are left out: drawing data hold faces");
+    for (const std::string& what : pointy_)
+      note(what + " has points or lines, which are left out: drawing data hold faces");
     for (const std::string& what : positionless_) note(what + " has no positions and is left out");
     if (textured_ > 0) note(fmt::format("textures of {} meshes are left out; their base colour stays", textured_));
     if (skinned_ > 0) note(fmt::format("{} skinned meshes stand as they were modelled", skinned_));
     if (morphed_ > 0) note(fmt::format("morph targets of {} meshes are left out", morphed_));
     if (!gltf_.animations.empty()) note(fmt::format("{} animations are left out", gltf_.animations.size()));
     for (std::size_t m = 0; m < placed_.size(); ++m)
-      if (!placed_[m]) note(described("mesh", m, gltf_.meshes[m].name) + " is not placed in the default scene and is left out");
+      if (!placed_[m])
+        note(described("mesh", m, gltf_.meshes[m].name) + " is not placed in the default scene and is left out");
   }
 
   std::string file_, stem_;

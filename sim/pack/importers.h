@@ -8,8 +8,8 @@
 
 namespace usuzumi::sim {
 
-/// glTF 2.0 by tinygltf: every primitive of every mesh that a node of the default scene places becomes a mesh, with node
-/// transforms applied, strips and fans taken apart, extras read (node over mesh). Throws Error kBadInput.
+/// glTF 2.0 by tinygltf: every primitive of every mesh that a node of the default scene places becomes a mesh, with
+/// node transforms applied, strips and fans taken apart, extras read (node over mesh). Throws Error kBadInput.
 Model import_gltf(const std::filesystem::path& path, const GltfFile& file);
 
 /// .obj .ply .stl .off .dae .ac and glTF 1.0 by assimp: polygons cut into triangles, node transforms applied.

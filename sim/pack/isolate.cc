@@ -24,7 +24,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr rlim_t kMemoryLimit = rlim_t{8} << 30;  // bytes of address space; arbitrary, far above any model the format can hold
+constexpr rlim_t kMemoryLimit = rlim_t{8}
+                                << 30;  // bytes of address space; arbitrary, far above any model the format can hold
 
 // The child's answer: this byte, then the work's bytes or the error line.
 enum class Answer : char { kBytes = 'B', kError = 'E' };
@@ -73,9 +74,10 @@ void send_error(int fd, ExitCode code, const std::string& line) {
   } catch (const Error& e) {
     send_error(fd, e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    send_error(fd, ExitCode::kBadInput,
-               fmt::format("{}: reading it takes more than {} GiB of memory; its counts are damaged, or it must be split", what,
-                           kMemoryLimit >> 30));
+    send_error(
+        fd, ExitCode::kBadInput,
+        fmt::format("{}: reading it takes more than {} GiB of memory; its counts are damaged, or it must be split",
+                    what, kMemoryLimit >> 30));
   } catch (const std::exception& e) {
     send_error(fd, ExitCode::kBadInput, fmt::format("{}: cannot be read: {}; export it again", what, e.what()));
   }
@@ -133,13 +135,15 @@ std::vector<std::byte> run_isolated(const std::string& what, std::chrono::second
   const int status = wait_for(pid);
 
   if (!in_time)
-    refuse(fmt::format("still being read after {} s; it is damaged or very large: convert it to .glb, or raise --time-limit",
-                       time_limit.count()));
+    refuse(fmt::format(
+        "still being read after {} s; it is damaged or very large: convert it to .glb, or raise --time-limit",
+        time_limit.count()));
   if (WIFSIGNALED(status))
     refuse(fmt::format("the importer crashed on it ({}); the file is damaged: export it again, best as .glb",
                        ::strsignal(WTERMSIG(status))));
   if (answer.size() >= 2 && answer[0] == std::byte{static_cast<unsigned char>(Answer::kError)})
-    throw Error(static_cast<ExitCode>(answer[1]), std::string(reinterpret_cast<const char*>(answer.data()) + 2, answer.size() - 2));
+    throw Error(static_cast<ExitCode>(answer[1]),
+                std::string(reinterpret_cast<const char*>(answer.data()) + 2, answer.size() - 2));
   if (answer.empty() || WEXITSTATUS(status) != 0 || answer[0] != std::byte{static_cast<unsigned char>(Answer::kBytes)})
     refuse("the importer gave up on it without a word; the file is damaged: export it again, best as .glb");
   answer.erase(answer.begin());

@@ -40,7 +40,8 @@ std::vector<Tags> matched_tags(const Model& model, std::span<const TagRule> rule
       used = true;
     }
     if (!used)
-      throw Error(code, fmt::format("{}: no mesh is named '{}'; {}", rule.origin, rule.pattern, suggest(rule.pattern, all_names(model))));
+      throw Error(code, fmt::format("{}: no mesh is named '{}'; {}", rule.origin, rule.pattern,
+                                    suggest(rule.pattern, all_names(model))));
   }
   return tags;
 }
@@ -52,7 +53,8 @@ json parse_strictly(const std::string& file, const std::vector<std::byte>& bytes
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw Error(ExitCode::kBadInput, fmt::format("{}: \"{}\" stands twice in one object; remove one", file, parsed.get<std::string>()));
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("{}: \"{}\" stands twice in one object; remove one", file, parsed.get<std::string>()));
     return true;
   };
   try {
@@ -67,7 +69,8 @@ void note_unused_properties(Model& model) {
   for (const Mesh& mesh : model.meshes) {
     const std::uint32_t level = mesh.tags.level.value_or(0);
     auto note = [&](std::string_view key, std::string_view used_by) {
-      model.notes.push_back(fmt::format("mesh '{}': {} is kept in ROM, but level {} does not use it ({} does)", mesh.name, key, level, used_by));
+      model.notes.push_back(fmt::format("mesh '{}': {} is kept in ROM, but level {} does not use it ({} does)",
+                                        mesh.name, key, level, used_by));
     };
     if (mesh.tags.quota && level != kLevelCollapse) note(kQuotaKey, "3, collapse,");
     if (mesh.tags.area_threshold_px && level < kLevelDelete) note(kAreaKey, "2, delete, or 3, collapse,");
@@ -79,7 +82,8 @@ void note_unused_properties(Model& model) {
 TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key) {
   const std::size_t equals = argument.rfind('=');
   if (equals == std::string::npos || equals == 0)
-    throw Error(ExitCode::kUsage, fmt::format("{} {}: wants NAME=VALUE, with a mesh's name (* and ? stand for others)", option, argument));
+    throw Error(ExitCode::kUsage, fmt::format("{} {}: wants NAME=VALUE, with a mesh's name (* and ? stand for others)",
+                                              option, argument));
   TagRule rule{argument.substr(0, equals), {}, fmt::format("{} {}", option, argument)};
   const std::string wrong = set_tag(rule.tags, key, TagValue{{}, {}, argument.substr(equals + 1)});
   if (!wrong.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: the value {}", rule.origin, wrong));
@@ -124,7 +128,8 @@ void apply_tags(Model& model, const TagSources& sources) {
   note_unused_properties(model);
   if (!any_level)
     model.notes.push_back(
-        "no mesh has a thinning level, so all are kept whole. Give --level NAME=3 or --default-level 3, or in Blender give the "
+        "no mesh has a thinning level, so all are kept whole. Give --level NAME=3 or --default-level 3, or in Blender "
+        "give the "
         "objects a custom property thinning_level and tick Export glTF > Include > Data > Custom Properties");
 }
 

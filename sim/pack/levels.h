@@ -24,18 +24,18 @@ struct TagRule {
 /// Throws Error kUsage.
 TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key);
 
-/// {"meshes": {"pattern": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": true}}}; anything
-/// else in the file is an error. Throws Error kBadInput.
+/// {"meshes": {"pattern": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": true}}};
+/// anything else in the file is an error. Throws Error kBadInput.
 std::vector<TagRule> read_sidecar(const std::filesystem::path& path);
 
 struct TagSources {
-  std::span<const TagRule> options;   // strongest; a later rule wins over an earlier one
-  std::span<const TagRule> sidecars;  // over what the model says itself
+  std::span<const TagRule> options;            // strongest; a later rule wins over an earlier one
+  std::span<const TagRule> sidecars;           // over what the model says itself
   std::optional<std::uint32_t> default_level;  // of meshes whose level nobody gives
 };
 
-/// Sets every mesh's tags. A rule that matches no mesh is an error: kUsage for options, kBadInput for sidecars. Adds notes
-/// about properties that the mesh's level does not use, and where no mesh has a level.
+/// Sets every mesh's tags. A rule that matches no mesh is an error: kUsage for options, kBadInput for sidecars. Adds
+/// notes about properties that the mesh's level does not use, and where no mesh has a level.
 void apply_tags(Model& model, const TagSources& sources);
 
 }  // namespace usuzumi::sim

@@ -16,6 +16,7 @@
 #include "sim/pack/model_bytes.h"
 #include "sim/pack/names.h"
 #include "sim/pack/normals.h"
+#include "sim/pack/off_counts.h"
 #include "sim/pack/weld.h"
 
 namespace usuzumi::sim {
@@ -27,7 +28,8 @@ constexpr std::array<const char*, 6> kAssimpExtensions{".obj", ".ply", ".stl", "
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
@@ -36,7 +38,8 @@ void label_gltf1(const GltfFile& file, Model& model) {
   model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
   for (Mesh& mesh : model.meshes) {
     auto found = file.gltf1_meshes.find(mesh.mesh_name);
-    if (found == file.gltf1_meshes.end()) found = file.gltf1_meshes.find(mesh.mesh_name.substr(0, mesh.mesh_name.rfind('-')));
+    if (found == file.gltf1_meshes.end())
+      found = file.gltf1_meshes.find(mesh.mesh_name.substr(0, mesh.mesh_name.rfind('-')));
     if (found != file.gltf1_meshes.end()) {
       if (!found->second.name.empty()) mesh.mesh_name = found->second.name;
       mesh.tags = found->second.tags;
@@ -51,6 +54,7 @@ void label_gltf1(const GltfFile& file, Model& model) {
 /// Runs in the isolated process.
 Model import_by_extension(const fs::path& path) {
   const std::string extension = lower_extension(path);
+  if (extension == ".off") check_off_counts(path);
   if (extension != ".gltf" && extension != ".glb") return import_assimp(path);
   const GltfFile file = open_gltf(path);
   if (file.version_major == 2) return import_gltf(path, file);
@@ -62,7 +66,8 @@ Model import_by_extension(const fs::path& path) {
 /// Names go into ROM as UTF-8 and into one line of text; formats older than Unicode bring anything.
 std::string clean_name(const std::string& name) {
   using nlohmann::json;
-  const std::string valid = json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+  const std::string valid =
+      json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
   std::string clean;
   for (char c : valid) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '_' : c;
   return clean;
@@ -71,12 +76,15 @@ std::string clean_name(const std::string& name) {
 /// What every importer must deliver, checked where no importer can forget it.
 void check_mesh(const std::string& file, const Mesh& mesh) {
   auto refuse = [&](const std::string& why) {
-    throw Error(ExitCode::kBadInput, fmt::format("{}: mesh '{}': {}; mend it in the modelling tool and export it again", file, mesh.mesh_name, why));
+    throw Error(ExitCode::kBadInput, fmt::format("{}: mesh '{}': {}; mend it in the modelling tool and export it again",
+                                                 file, mesh.mesh_name, why));
   };
   const std::size_t vertices = mesh.positions.size();
-  if (vertices >= firmware::format::kAbsent || mesh.indices.size() >= firmware::format::kAbsent) refuse("too many vertices or faces");
+  if (vertices >= firmware::format::kAbsent || mesh.indices.size() >= firmware::format::kAbsent)
+    refuse("too many vertices or faces");
   for (std::size_t v = 0; v < vertices; ++v)
-    if (!is_finite(mesh.positions[v])) refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
+    if (!is_finite(mesh.positions[v]))
+      refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
   for (std::uint32_t i : mesh.indices)
     if (i >= vertices) refuse(fmt::format("a face refers to vertex {} of {}", i, vertices));
   if (mesh.indices.size() % 3 != 0 || (!mesh.normals.empty() && mesh.normals.size() != vertices) ||
@@ -105,11 +113,13 @@ void finish(const std::string& file, Model& model) {
   }
   model.meshes = std::move(kept);
   if (empty_faces > 0)
-    model.notes.push_back(fmt::format("{}: {} faces of {} meshes have two corners at one place; they draw nothing and are left out", file,
-                                      empty_faces, meshes_with_empty_faces));
+    model.notes.push_back(
+        fmt::format("{}: {} faces of {} meshes have two corners at one place; they draw nothing and are left out", file,
+                    empty_faces, meshes_with_empty_faces));
   if (model.meshes.empty())
-    throw Error(ExitCode::kBadInput, fmt::format("{}: no triangles in it{}; pack a model that has faces", file,
-                                                 model.notes.empty() ? "" : " (" + model.notes.front().substr(file.size() + 2) + ")"));
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{}: no triangles in it{}; pack a model that has faces", file,
+                            model.notes.empty() ? "" : " (" + model.notes.front().substr(file.size() + 2) + ")"));
 }
 
 }  // namespace
@@ -117,15 +127,20 @@ void finish(const std::string& file, Model& model) {
 Model load_model(const fs::path& path, const LoadOptions& options) {
   const std::string file = path.string();
   const std::string extension = lower_extension(path);
-  const bool known = extension == ".gltf" || extension == ".glb" ||
-                     std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
+  const bool known =
+      extension == ".gltf" || extension == ".glb" ||
+      std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
   if (!known)
-    throw Error(ExitCode::kBadInput,
-                fmt::format("{}: not a model file that is read here; convert it to .glb .gltf .obj .ply .stl .off .dae or .ac", file));
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format("{}: not a model file that is read here; convert it to .glb .gltf .obj .ply .stl .off .dae or .ac",
+                    file));
   std::error_code none;
   if (!fs::exists(path, none)) throw Error(ExitCode::kBadInput, fmt::format("{}: no such file; check the name", file));
-  if (fs::is_directory(path, none)) throw Error(ExitCode::kBadInput, fmt::format("{}: is a folder; name a model file in it", file));
-  const std::vector<std::byte> bytes = run_isolated(file, options.time_limit, [&] { return model_to_bytes(import_by_extension(path)); });
+  if (fs::is_directory(path, none))
+    throw Error(ExitCode::kBadInput, fmt::format("{}: is a folder; name a model file in it", file));
+  const std::vector<std::byte> bytes =
+      run_isolated(file, options.time_limit, [&] { return model_to_bytes(import_by_extension(path)); });
   Model model = model_from_bytes(bytes, file);
   finish(file, model);
   make_names_unique(model);

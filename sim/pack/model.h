@@ -37,12 +37,12 @@ struct Mesh {
   std::string mesh_name;  // as in the file: the mesh's name, else the node's, else the file's stem
   std::string node_name;  // of the node that places it; may be empty
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;            // as many as positions, or empty
-  std::vector<Rgba8> colours;           // as many as positions, or empty; display-referred (sRGB)
-  std::vector<std::uint32_t> indices;   // three per face, counter-clockwise as seen from outside
-  Rgba8 base_colour{};                  // where there are no vertex colours; display-referred (sRGB)
+  std::vector<Vec3> normals;           // as many as positions, or empty
+  std::vector<Rgba8> colours;          // as many as positions, or empty; display-referred (sRGB)
+  std::vector<std::uint32_t> indices;  // three per face, counter-clockwise as seen from outside
+  Rgba8 base_colour{};                 // where there are no vertex colours; display-referred (sRGB)
   bool two_sided = false;
-  Tags tags;                            // from the file itself, node over mesh
+  Tags tags;  // from the file itself, node over mesh
 
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };

@@ -52,7 +52,8 @@ class In {
   }
   bool at_end() const { return bytes_.empty(); }
   [[noreturn]] void fail() const {
-    throw Error(ExitCode::kBadInput, what_ + ": the importer's result is garbled; the file is damaged: export it again");
+    throw Error(ExitCode::kBadInput,
+                what_ + ": the importer's result is garbled; the file is damaged: export it again");
   }
 
  private:

@@ -14,8 +14,8 @@ namespace usuzumi::sim {
 namespace {
 
 constexpr double kCreaseCosine = 0.5;  // of 60 degrees
-/// At a position with more faces than this (the tip of a finely divided cone) all of them are averaged, because comparing
-/// each with each would take too long. Arbitrary.
+/// At a position with more faces than this (the tip of a finely divided cone) all of them are averaged, because
+/// comparing each with each would take too long. Arbitrary.
 constexpr std::size_t kMostFacesCompared = 256;
 /// Shorter than this a normal from a file is an accident, not a direction.
 constexpr float kShortestNormal = 1e-6f;
@@ -48,7 +48,8 @@ struct FacesAround {
   std::vector<std::uint32_t> begin;  // per position, and one more
   std::vector<std::uint32_t> faces;
 
-  FacesAround(const Mesh& mesh, const PositionIds& ids) : begin(ids.first_vertex.size() + 1), faces(mesh.indices.size()) {
+  FacesAround(const Mesh& mesh, const PositionIds& ids)
+      : begin(ids.first_vertex.size() + 1), faces(mesh.indices.size()) {
     for (std::uint32_t v : mesh.indices) ++begin[ids.of_vertex[v] + 1];
     for (std::size_t p = 1; p < begin.size(); ++p) begin[p] += begin[p - 1];
     std::vector<std::uint32_t> fill(begin.begin(), begin.end() - 1);

@@ -22,7 +22,8 @@ using firmware::DrawingData;
 using firmware::MeshView;
 
 constexpr std::array<const char*, 4> kTopologyNames{"strip", "list", "fan", "indexed"};
-constexpr std::array<const char*, firmware::kLevelCount> kLevelLabels{"0 unset", "1 keep", "2 delete", "3 collapse", "4 point", "5 line"};
+constexpr std::array<const char*, firmware::kLevelCount> kLevelLabels{"0 unset",    "1 keep",  "2 delete",
+                                                                      "3 collapse", "4 point", "5 line"};
 
 struct Box {
   Vec3 low, high;
@@ -60,12 +61,9 @@ json mesh_json(const MeshView& mesh) {
   j["vertices"] = mesh.positions.size();
   j["faces"] = mesh.face_count();
   j["index_bytes"] = mesh.index_bytes;
-  if (mesh.quota_kind == format::QuotaKind::kNone)
-    j["face_quota"] = nullptr;
-  else if (mesh.quota_kind == format::QuotaKind::kFaces)
-    j["face_quota"] = mesh.quota;
-  else
-    j["face_quota"] = quota_label(mesh);
+  if (mesh.quota_kind == format::QuotaKind::kNone) j["face_quota"] = nullptr;
+  else if (mesh.quota_kind == format::QuotaKind::kFaces) j["face_quota"] = mesh.quota;
+  else j["face_quota"] = quota_label(mesh);
   j["area_threshold_px"] = mesh.area_threshold_px < 0 ? json(nullptr) : json(mesh.area_threshold_px);
   j["telltale"] = mesh.telltale();
   j["two_sided"] = mesh.two_sided();
@@ -80,12 +78,14 @@ std::string mesh_line(const MeshView& mesh, std::size_t name_width) {
   const Box box = bounding_box(mesh.positions);
   const std::string flags = fmt::format("{}{}{}{}", mesh.normals.empty() ? '-' : 'n', mesh.colours.empty() ? '-' : 'c',
                                         mesh.two_sided() ? '2' : '-', mesh.telltale() ? 't' : '-');
-  return fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g}\n",
-                     mesh.number + 1, mesh.name.empty() ? "-" : mesh.name, name_width, level_label(static_cast<unsigned>(mesh.level)),
-                     kTopologyNames[static_cast<std::size_t>(mesh.topology)], mesh.positions.size(), mesh.face_count(), quota_label(mesh),
-                     mesh.area_threshold_px < 0 ? "-" : fmt::format("{:g}", mesh.area_threshold_px), flags,
-                     mesh.colours.empty() ? colour_label(mesh.base_colour) : "by vertex", box.low.x, box.low.y, box.low.z, box.high.x,
-                     box.high.y, box.high.z);
+  return fmt::format(
+      "{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:.4g},{:.4g},{:.4g} to "
+      "{:.4g},{:.4g},{:.4g}\n",
+      mesh.number + 1, mesh.name.empty() ? "-" : mesh.name, name_width, level_label(static_cast<unsigned>(mesh.level)),
+      kTopologyNames[static_cast<std::size_t>(mesh.topology)], mesh.positions.size(), mesh.face_count(),
+      quota_label(mesh), mesh.area_threshold_px < 0 ? "-" : fmt::format("{:g}", mesh.area_threshold_px), flags,
+      mesh.colours.empty() ? colour_label(mesh.base_colour) : "by vertex", box.low.x, box.low.y, box.low.z, box.high.x,
+      box.high.y, box.high.z);
 }
 
 /// What a ROM without a stored checksum can be told by, or the stored one, which open() has found right.
@@ -133,11 +133,13 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
 }
 
 std::string describe_text(const DrawingData& data, const std::string& file, const Totals& totals) {
-  std::string out = fmt::format("{}: {}, {} bytes, CRC-32 {:08x}, {} meshes, {} vertices, {} faces; sound\n", file,
-                                data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
-                                data.bytes().size(), crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
-  out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name", totals.name_width, "level",
-                     "topology", "vertices", "faces", "quota", "area px", "flags", "colour", "bounding box");
+  std::string out =
+      fmt::format("{}: {}, {} bytes, CRC-32 {:08x}, {} meshes, {} vertices, {} faces; sound\n", file,
+                  data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
+                  data.bytes().size(), crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
+  out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name",
+                     totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags", "colour",
+                     "bounding box");
   for (std::uint32_t n = 0; n < data.mesh_max(); ++n) out += mesh_line(data.mesh(n), totals.name_width);
   out += "flags: n normals, c vertex colours, 2 two-sided, t telltale\n";
   return out;

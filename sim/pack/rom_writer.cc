@@ -48,18 +48,22 @@ class Bytes {
 void check_mesh_count(const Model& model) {
   if (model.meshes.empty()) throw Error(ExitCode::kBadInput, "nothing to pack: the input has no triangles");
   if (model.meshes.size() > format::kMaxMeshes)
-    throw Error(ExitCode::kBadInput, fmt::format("{} meshes, but drawing data hold at most {}; join some in the modelling tool",
-                                                 model.meshes.size(), format::kMaxMeshes));
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{} meshes, but drawing data hold at most {}; join some in the modelling tool",
+                            model.meshes.size(), format::kMaxMeshes));
 }
 
 /// Before anything is written: an upper bound of the file, so that no 32-bit offset can wrap.
 void check_size(const Model& model) {
   std::uint64_t bytes = 0;
   for (const Mesh& mesh : model.meshes)
-    bytes += 256 + mesh.name.size() + 20 * std::uint64_t{mesh.positions.size()} + 4 * std::uint64_t{mesh.indices.size()};
+    bytes +=
+        256 + mesh.name.size() + 20 * std::uint64_t{mesh.positions.size()} + 4 * std::uint64_t{mesh.indices.size()};
   if (bytes > format::kMaxFileBytes)
-    throw Error(ExitCode::kBadInput,
-                fmt::format("about {} MiB of drawing data, but the format ends at 1024 MiB; pack fewer or coarser models", bytes >> 20));
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format("about {} MiB of drawing data, but the format ends at 1024 MiB; pack fewer or coarser models",
+                    bytes >> 20));
 }
 
 void write_record(Bytes& out, std::uint32_t level, std::span<const Vec3> positions) {
@@ -117,15 +121,16 @@ void Parts::add(const Mesh& mesh) {
     d.quota = mesh.tags.quota->value;
   }
   d.area_threshold_px = mesh.tags.area_threshold_px.value_or(-1.0f);
-  d.flags = (mesh.tags.telltale.value_or(false) ? format::kFlagTelltale : 0) | (mesh.two_sided ? format::kFlagTwoSided : 0);
+  d.flags =
+      (mesh.tags.telltale.value_or(false) ? format::kFlagTelltale : 0) | (mesh.two_sided ? format::kFlagTwoSided : 0);
   d.name_offset = names.size();
   d.name_bytes = static_cast<std::uint32_t>(mesh.name.size());
   names.text(mesh.name);
   meshes.push_back(d);
 }
 
-void Parts::place(std::uint32_t records_at, std::uint32_t indices_at, std::uint32_t normals_at, std::uint32_t colours_at,
-                  std::uint32_t names_at) {
+void Parts::place(std::uint32_t records_at, std::uint32_t indices_at, std::uint32_t normals_at,
+                  std::uint32_t colours_at, std::uint32_t names_at) {
   for (format::MeshDescriptor& d : meshes) {
     d.record_offset += records_at;
     d.index_offset += indices_at;
@@ -233,7 +238,8 @@ std::vector<std::byte> write_bare(const Model& model) {
   out.u32(static_cast<std::uint32_t>(model.meshes.size()));
   for (const Mesh& mesh : model.meshes) write_record(out, level_of(mesh), triangle_strip(mesh));
   if (out.size() > format::kMaxFileBytes)
-    throw Error(ExitCode::kBadInput, "the strips take more than 1024 MiB, where the format ends; pack fewer or coarser models");
+    throw Error(ExitCode::kBadInput,
+                "the strips take more than 1024 MiB, where the format ends; pack fewer or coarser models");
   return out.take();
 }
 

@@ -1,4 +1,5 @@
-// A model as drawing data in ROM: the container, or the patent's bare layout. firmware/drawing_data/format.h is the law.
+// A model as drawing data in ROM: the container, or the patent's bare layout. firmware/drawing_data/format.h is the
+// law.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 namespace usuzumi::sim {
 
-/// The container: one record per mesh, indexed, with normals, colours, quotas, thresholds and names. The same model gives
-/// the same bytes. Throws Error kBadInput where the format's bounds are exceeded.
+/// The container: one record per mesh, indexed, with normals, colours, quotas, thresholds and names. The same model
+/// gives the same bytes. Throws Error kBadInput where the format's bounds are exceeded.
 std::vector<std::byte> write_container(const Model& model);
 
 /// The patent's layout alone: per mesh one triangle strip that draws every face of it with its winding, joined by faces

@@ -26,7 +26,8 @@ class Stripper {
       if (f[0] != f[1] && f[1] != f[2] && f[2] != f[0]) faces_.push_back(f);
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k) edges_.push_back({faces_[f][k], faces_[f][(k + 1) % 3], f, faces_[f][(k + 2) % 3]});
+      for (std::size_t k = 0; k < 3; ++k)
+        edges_.push_back({faces_[f][k], faces_[f][(k + 1) % 3], f, faces_[f][(k + 2) % 3]});
     std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
       return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.face < b.face;
     });
@@ -72,9 +73,9 @@ class Stripper {
 
   /// The first face with the side from -> to that is neither done nor in this trial's run.
   const DirectedEdge* free_edge(std::uint32_t from, std::uint32_t to, std::uint32_t trial) const {
-    auto at = std::lower_bound(edges_.begin(), edges_.end(), DirectedEdge{from, to, 0, 0}, [](const DirectedEdge& a, const DirectedEdge& b) {
-      return a.from != b.from ? a.from < b.from : a.to < b.to;
-    });
+    auto at = std::lower_bound(
+        edges_.begin(), edges_.end(), DirectedEdge{from, to, 0, 0},
+        [](const DirectedEdge& a, const DirectedEdge& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
     for (; at != edges_.end() && at->from == from && at->to == to; ++at)
       if (taken_by_[at->face] != kDone && taken_by_[at->face] != trial) return &*at;
     return nullptr;

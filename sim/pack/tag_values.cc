@@ -32,7 +32,9 @@ std::string spelled(const TagValue& v) {
   return "something else";
 }
 
-std::optional<double> number_of(const TagValue& v) { return v.number ? v.number : (v.text ? parse_number(*v.text) : std::nullopt); }
+std::optional<double> number_of(const TagValue& v) {
+  return v.number ? v.number : (v.text ? parse_number(*v.text) : std::nullopt);
+}
 
 bool is_count(double d) { return d >= 0 && d <= std::numeric_limits<std::uint32_t>::max() && d == std::floor(d); }
 
@@ -68,11 +70,14 @@ std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
   if (key == kLevelKey) {
     const auto level = number_of(value);
     if (!level || !is_count(*level) || *level > 5)
-      return fmt::format("must be 0 (unset), 1 (keep), 2 (delete), 3 (collapse), 4 (point) or 5 (line), not {}", spelled(value));
+      return fmt::format("must be 0 (unset), 1 (keep), 2 (delete), 3 (collapse), 4 (point) or 5 (line), not {}",
+                         spelled(value));
     tags.level = static_cast<std::uint32_t>(*level);
   } else if (key == kQuotaKey) {
     tags.quota = parse_quota(value);
-    if (!tags.quota) return fmt::format("must be a number of faces from 1, or a share like \"25%\" up to 100%, not {}", spelled(value));
+    if (!tags.quota)
+      return fmt::format("must be a number of faces from 1, or a share like \"25%\" up to 100%, not {}",
+                         spelled(value));
   } else if (key == kAreaKey) {
     const auto area = number_of(value);
     if (!area || !(*area >= 0) || *area > static_cast<double>(std::numeric_limits<float>::max()))
@@ -87,8 +92,8 @@ std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
   return "";
 }
 
-Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file, const std::string& whose,
-                      std::vector<std::string>& notes) {
+Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file,
+                      const std::string& whose, std::vector<std::string>& notes) {
   Tags tags;
   for (const auto& [key, value] : extras) {
     if (std::find(kTagKeys.begin(), kTagKeys.end(), key) != kTagKeys.end()) {

@@ -12,8 +12,8 @@
 
 namespace usuzumi::sim {
 
-inline constexpr std::string_view kLevelKey = "thinning_level", kQuotaKey = "face_quota", kAreaKey = "area_threshold_px",
-                                  kTelltaleKey = "telltale";
+inline constexpr std::string_view kLevelKey = "thinning_level", kQuotaKey = "face_quota",
+                                  kAreaKey = "area_threshold_px", kTelltaleKey = "telltale";
 inline constexpr std::array<std::string_view, 4> kTagKeys{kLevelKey, kQuotaKey, kAreaKey, kTelltaleKey};
 
 /// A value as JSON or an option can give it.
@@ -27,22 +27,19 @@ struct TagValue {
 template <class Json>
 TagValue tag_value_of(const Json& json) {
   TagValue value;
-  if (json.is_boolean())
-    value.truth = json.template get<bool>();
-  else if (json.is_number())
-    value.number = json.template get<double>();
-  else if (json.is_string())
-    value.text = json.template get<std::string>();
+  if (json.is_boolean()) value.truth = json.template get<bool>();
+  else if (json.is_number()) value.number = json.template get<double>();
+  else if (json.is_string()) value.text = json.template get<std::string>();
   return value;
 }
 
 /// Reads `value` for `key` (one of kTagKeys) into `tags`. Returns "" or what is wrong with it: "must be 0 to 5, not 9".
 std::string set_tag(Tags& tags, std::string_view key, const TagValue& value);
 
-/// The tags among the extras of a glTF node or mesh (Blender's custom properties). Other keys are other people's and are left
-/// alone, but one that is nearly a key of ours is told of in `notes`. `whose` ("node 'Leaf'") names the place. Throws Error
-/// kBadInput for a value that cannot be.
-Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file, const std::string& whose,
-                      std::vector<std::string>& notes);
+/// The tags among the extras of a glTF node or mesh (Blender's custom properties). Other keys are other people's and
+/// are left alone, but one that is nearly a key of ours is told of in `notes`. `whose` ("node 'Leaf'") names the place.
+/// Throws Error kBadInput for a value that cannot be.
+Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extras, const std::string& file,
+                      const std::string& whose, std::vector<std::string>& notes);
 
 }  // namespace usuzumi::sim

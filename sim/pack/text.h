@@ -12,10 +12,8 @@ inline std::string one_line(std::string_view text) {
   std::string line;
   for (char c : text) {
     const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-    if (!control)
-      line += c;
-    else if (!line.empty() && line.back() != ' ')
-      line += ' ';
+    if (!control) line += c;
+    else if (!line.empty() && line.back() != ' ') line += ' ';
     if (line.size() >= kMost) {
       line += "…";
       break;

@@ -1,8 +1,9 @@
 // tinygltf, built into this program under a namespace of its own.
 //
-// Debian's libdraco, which libassimp brings along, exports another version of tinygltf under the same names with another
-// layout of its classes. Which one a program gets would hang on the order of libraries at link time, and the wrong one
-// crashes. So the implementation in tinygltf's header is compiled here (tinygltf.cc) and libtinygltf is not linked.
+// Debian's libdraco, which libassimp brings along, exports another version of tinygltf under the same names with
+// another layout of its classes. Which one a program gets would hang on the order of libraries at link time, and the
+// wrong one crashes. So the implementation in tinygltf's header is compiled here (tinygltf.cc) and libtinygltf is not
+// linked.
 #pragma once
 
 #define tinygltf usuzumi_tinygltf

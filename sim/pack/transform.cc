@@ -56,9 +56,9 @@ void apply(const Transform& t, Mesh& mesh) {
     const double r[3] = {c[0][0] * x + c[0][1] * y + c[0][2] * z, c[1][0] * x + c[1][1] * y + c[1][2] * z,
                          c[2][0] * x + c[2][1] * y + c[2][2] * z};
     const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-    n = length > 0 && std::isfinite(length)
-            ? Vec3{static_cast<float>(r[0] / length), static_cast<float>(r[1] / length), static_cast<float>(r[2] / length)}
-            : Vec3{};
+    n = length > 0 && std::isfinite(length) ? Vec3{static_cast<float>(r[0] / length), static_cast<float>(r[1] / length),
+                                                   static_cast<float>(r[2] / length)}
+                                            : Vec3{};
   }
   if (mirrors)
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);

@@ -26,11 +26,13 @@ struct Transform {
 
 /// First `b`, then `a`.
 Transform operator*(const Transform& a, const Transform& b);
-/// Translation after rotation (quaternion x y z w, made unit; no rotation where it is zero) after scale, as glTF has it.
+/// Translation after rotation (quaternion x y z w, made unit; no rotation where it is zero) after scale, as glTF has
+/// it.
 Transform from_parts(const double translation[3], const double rotation[4], const double scale[3]);
 
-/// Moves `mesh` by `t`: positions by the map, normals by its inverse transpose; a mirroring map (negative determinant) turns
-/// the winding round, so that outside stays outside. Normals that a flattening map leaves without direction become zero.
+/// Moves `mesh` by `t`: positions by the map, normals by its inverse transpose; a mirroring map (negative determinant)
+/// turns the winding round, so that outside stays outside. Normals that a flattening map leaves without direction
+/// become zero.
 void apply(const Transform& t, Mesh& mesh);
 
 }  // namespace usuzumi::sim

@@ -10,8 +10,8 @@ namespace usuzumi::sim {
 
 enum class Assembly { kList, kStrip, kFan };
 
-/// Three vertex numbers per face, wound as glTF 2.0 section 3.7.2.1 says. Faces that repeat a vertex, which only join runs of
-/// a strip, are left out; so is an unfinished last triangle.
+/// Three vertex numbers per face, wound as glTF 2.0 section 3.7.2.1 says. Faces that repeat a vertex, which only join
+/// runs of a strip, are left out; so is an unfinished last triangle.
 inline std::vector<std::uint32_t> assemble(Assembly assembly, std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> faces;
   auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -35,7 +35,8 @@ PositionIds number_positions(std::span<const Vec3> positions) {
   seen.reserve(positions.size());
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     const Vec3& p = positions[v];
-    const auto [at, fresh] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z)}, static_cast<std::uint32_t>(ids.first_vertex.size()));
+    const auto [at, fresh] =
+        seen.try_emplace({bits(p.x), bits(p.y), bits(p.z)}, static_cast<std::uint32_t>(ids.first_vertex.size()));
     if (fresh) ids.first_vertex.push_back(v);
     ids.of_vertex.push_back(at->second);
   }
@@ -50,8 +51,8 @@ void weld_vertices(Mesh& mesh) {
     const Vec3& p = mesh.positions[index];
     const std::uint32_t normal = mesh.normals.empty() ? 0 : pack_normal(mesh.normals[index]).bits;
     const std::uint32_t colour = mesh.colours.empty() ? 0 : mesh.colours[index].bits;
-    const auto [at, fresh] =
-        seen.try_emplace({bits(p.x), bits(p.y), bits(p.z), normal, colour}, static_cast<std::uint32_t>(welded.positions.size()));
+    const auto [at, fresh] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z), normal, colour},
+                                              static_cast<std::uint32_t>(welded.positions.size()));
     if (fresh) {
       welded.positions.push_back(p);
       if (!mesh.normals.empty()) welded.normals.push_back(mesh.normals[index]);

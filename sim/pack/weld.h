@@ -16,8 +16,8 @@ struct PositionIds {
 };
 PositionIds number_positions(std::span<const Vec3> positions);
 
-/// Joins vertices of equal position, packed normal and colour; drops unreferenced ones. Vertices come out in the order in
-/// which faces first use them, so neighbours in space are neighbours in ROM. Faces stay as they are.
+/// Joins vertices of equal position, packed normal and colour; drops unreferenced ones. Vertices come out in the order
+/// in which faces first use them, so neighbours in space are neighbours in ROM. Faces stay as they are.
 void weld_vertices(Mesh& mesh);
 
 /// Removes faces with two corners at one position, which draw nothing. Returns how many.

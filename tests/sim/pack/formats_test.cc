@@ -9,24 +9,26 @@
 namespace usuzumi {
 namespace {
 
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::Not;
 using sim::load_model;
 using sim::Mesh;
 using sim::Model;
+using ::testing::Contains;
 using testing::face_corners;
 using testing::faces_of;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TempFolder;
 
-const std::multiset<testing::FaceCorners> kSquare{face_corners({0, 0, 0}, {1, 0, 0}, {1, 1, 0}), face_corners({0, 0, 0}, {1, 1, 0}, {0, 1, 0})};
+const std::multiset<testing::FaceCorners> kSquare{face_corners({0, 0, 0}, {1, 0, 0}, {1, 1, 0}),
+                                                  face_corners({0, 0, 0}, {1, 1, 0}, {0, 1, 0})};
 
 TEST(ObjImport, CutsPolygonsKeepsGroupsAndMaterialColours) {
   TempFolder folder;
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\n");
-  const Model model = load_model(folder.write("a.obj",
-                                              "mtllib m.mtl\no square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n"
-                                              "o wedge\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 5 6 7\n"));
+  const Model model =
+      load_model(folder.write("a.obj",
+                              "mtllib m.mtl\no square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n"
+                              "o wedge\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 5 6 7\n"));
   ASSERT_EQ(model.meshes.size(), 2u);
   EXPECT_EQ(model.meshes[0].name, "square");
   EXPECT_EQ(model.meshes[1].name, "wedge");
@@ -38,14 +40,16 @@ TEST(ObjImport, CutsPolygonsKeepsGroupsAndMaterialColours) {
 
 TEST(ObjImport, ClosedSurfaceShowsItsOutsideOnly) {
   TempFolder folder;
-  const Model model = load_model(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  const Model model =
+      load_model(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
   EXPECT_FALSE(model.meshes[0].two_sided);
   EXPECT_EQ(model.meshes[0].name, "defaultobject");  // what assimp calls an object without a name
 }
 
 TEST(ObjImport, DropsPointsLinesAndFacesWithoutAreaWithAWord) {
   TempFolder folder;
-  const Model model = load_model(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 2\nf 1 4 3\nl 1 2\np 1\n"));
+  const Model model =
+      load_model(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 2\nf 1 4 3\nl 1 2\np 1\n"));
   std::size_t faces = 0;
   for (const Mesh& mesh : model.meshes) faces += mesh.face_count();
   EXPECT_EQ(faces, 1u);
@@ -55,11 +59,14 @@ TEST(ObjImport, DropsPointsLinesAndFacesWithoutAreaWithAWord) {
 
 TEST(PlyImport, KeepsVertexColoursAsTheyAre) {
   TempFolder folder;
-  const Mesh mesh = load_model(folder.write("a.ply",
-                                            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                                            "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
-                                            "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 128 0\n0 1 0 0 0 7\n3 0 1 2\n"))
-                        .meshes.at(0);
+  const Mesh mesh =
+      load_model(
+          folder.write("a.ply",
+                       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                       "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+                       "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 0 128 0\n0 1 0 0 0 "
+                       "7\n3 0 1 2\n"))
+          .meshes.at(0);
   EXPECT_EQ(mesh.name, "a");
   EXPECT_EQ(mesh.colours, (std::vector{rgba8(255, 0, 0), rgba8(0, 128, 0), rgba8(0, 0, 7)}));
 }
@@ -67,19 +74,24 @@ TEST(PlyImport, KeepsVertexColoursAsTheyAre) {
 TEST(PlyImport, CoordinatesThatAreNoNumbersAreRefused) {
   TempFolder folder;
   for (const char* bad : {"nan", "inf", "1e39"}) {
-    const std::string path = folder.write("a.ply", std::string("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
-                                                               "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                                               "end_header\n0 0 0\n1 0 0\n0 ") + bad + " 0\n3 0 1 2\n");
+    const std::string path = folder.write(
+        "a.ply", std::string("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                             "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "end_header\n0 0 0\n1 0 0\n0 ") +
+                     bad + " 0\n3 0 1 2\n");
     EXPECT_THROW(load_model(path), sim::Error) << bad;
   }
 }
 
 TEST(StlImport, MakesSmoothNormalsOfFacetsAndJoinsCorners) {
   TempFolder folder;
-  // Two facets that meet at 10 degrees or so: (0.0998 slope). Their common corners get one normal each, so 4 vertices remain.
+  // Two facets that meet at 10 degrees or so: (0.0998 slope). Their common corners get one normal each, so 4 vertices
+  // remain.
   const Mesh mesh = load_model(folder.write("a.stl",
-                                            "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                                            "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0.1\nvertex 0 1 0\nendloop\nendfacet\nendsolid roof\n"))
+                                            "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 "
+                                            "0\nvertex 0 1 0\nendloop\nendfacet\n"
+                                            "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0.1\nvertex 0 1 "
+                                            "0\nendloop\nendfacet\nendsolid roof\n"))
                         .meshes.at(0);
   EXPECT_EQ(mesh.face_count(), 2u);
   EXPECT_EQ(mesh.positions.size(), 4u);
@@ -87,29 +99,57 @@ TEST(StlImport, MakesSmoothNormalsOfFacetsAndJoinsCorners) {
 
 TEST(OffImport, ReadsFaces) {
   TempFolder folder;
-  EXPECT_EQ(faces_of(load_model(folder.write("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")).meshes.at(0)), kSquare);
+  EXPECT_EQ(
+      faces_of(load_model(folder.write("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")).meshes.at(0)),
+      kSquare);
+}
+
+TEST(OffImport, CountsBeyondTheFileAreRefusedBeforeMemoryIsTaken) {
+  TempFolder folder;
+  for (const char* counts : {"4000000000 1 0", "3 4000000000 0", "99999999999999999999999 1 0"}) {
+    const std::string path = folder.write("a.off", std::string("OFF # a comment\n# another\n") + counts + "\n0 0 0\n");
+    try {
+      load_model(path);
+      ADD_FAILURE() << counts;
+    } catch (const sim::Error& e) {
+      EXPECT_THAT(e.what(), HasSubstr("claims"));
+    }
+  }
 }
 
 TEST(AcImport, KeepsTransformsAndMaterialColours) {
   TempFolder folder;
-  const Mesh mesh = load_model(folder.write("a.ac",
-                                            "AC3Db\nMATERIAL \"m\" rgb 0 1 0 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\n"
-                                            "OBJECT poly\nname \"plate\"\nloc 0 0 3\nnumvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\n"
-                                            "refs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nkids 0\n"))
-                        .meshes.at(0);
-  EXPECT_EQ(faces_of(mesh), (std::multiset{face_corners({0, 0, 3}, {1, 0, 3}, {1, 1, 3}), face_corners({0, 0, 3}, {1, 1, 3}, {0, 1, 3})}));
+  const Mesh mesh =
+      load_model(
+          folder.write(
+              "a.ac",
+              "AC3Db\nMATERIAL \"m\" rgb 0 1 0 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\n"
+              "OBJECT poly\nname \"plate\"\nloc 0 0 3\nnumvert 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat "
+              "0\n"
+              "refs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nkids 0\n"))
+          .meshes.at(0);
+  EXPECT_EQ(faces_of(mesh), (std::multiset{face_corners({0, 0, 3}, {1, 0, 3}, {1, 1, 3}),
+                                           face_corners({0, 0, 3}, {1, 1, 3}, {0, 1, 3})}));
   EXPECT_EQ(mesh.base_colour, rgba8(0, 255, 0));
 }
 
 TEST(DaeImport, AppliesNodeTransformsAndMirrors) {
   TempFolder folder;
-  const std::string dae = R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  const std::string dae =
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit meter="1"/><up_axis>Y_UP</up_axis></asset>
-<library_geometries><geometry id="g" name="plate"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array>
-<technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<library_geometries><geometry id="g" name="plate"><mesh><source id="p"><float_array id="pa" count="9">
+0 0 0 1 0 0 0 1 0</float_array>
+<technique_common>
+<accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node id="n" name="Plate"><translate>0 0 2</translate><scale>-1 1 1</scale><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>
+</triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+<node id="n" name="Plate"><translate>0 0 2</translate><scale>-1 1 1</scale>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
   const Mesh mesh = load_model(folder.write("a.dae", dae)).meshes.at(0);
   EXPECT_EQ(faces_of(mesh), std::multiset{face_corners({0, 0, 2}, {0, 1, 2}, {-1, 0, 2})});
@@ -120,14 +160,17 @@ TEST(Gltf1Import, ReadsNamesAndExtrasThatTheImporterDoesNotHandOn) {
   TempFolder folder;
   const float xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::uint16_t order[4] = {0, 1, 2, 0};
-  folder.write("d.bin", std::string(reinterpret_cast<const char*>(xyz), 36) + std::string(reinterpret_cast<const char*>(order), 8));
+  folder.write("d.bin", std::string(reinterpret_cast<const char*>(xyz), 36) +
+                            std::string(reinterpret_cast<const char*>(order), 8));
   const std::string text = R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n0"]}},
     "nodes": {"n0": {"name": "Leaf", "meshes": ["m0"], "extras": {"thinning_level": 1}, "translation": [0, 0, 4]}},
     "meshes": {"m0": {"name": "leaf", "extras": {"thinning_level": 3, "face_quota": "50%"},
       "primitives": [{"attributes": {"POSITION": "a0"}, "indices": "a1", "mode": 4}]}},
-    "accessors": {"a0": {"bufferView": "v0", "byteOffset": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]},
+    "accessors": {"a0": {"bufferView": "v0", "byteOffset": 0, "componentType": 5126, "count": 3, 
+    "type": "VEC3", "min": [0,0,0], "max": [1,1,0]},
                   "a1": {"bufferView": "v1", "byteOffset": 0, "componentType": 5123, "count": 3, "type": "SCALAR"}},
-    "bufferViews": {"v0": {"buffer": "b", "byteOffset": 0, "byteLength": 36, "target": 34962}, "v1": {"buffer": "b", "byteOffset": 36, "byteLength": 6, "target": 34963}},
+    "bufferViews": {"v0": {"buffer": "b", "byteOffset": 0, "byteLength": 36, "target": 34962},
+    "v1": {"buffer": "b", "byteOffset": 36, "byteLength": 6, "target": 34963}},
     "buffers": {"b": {"byteLength": 44, "type": "arraybuffer", "uri": "d.bin"}}})";
   const Mesh mesh = load_model(folder.write("a.gltf", text)).meshes.at(0);
   EXPECT_EQ(mesh.name, "leaf");
@@ -161,7 +204,8 @@ TEST(LoadModel, ReadsExtensionsInCapitals) {
 
 TEST(LoadModel, NamesAreUniqueOverAllFiles) {
   TempFolder folder;
-  const std::vector<std::filesystem::path> files{folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"), folder / "a.off"};
+  const std::vector<std::filesystem::path> files{folder.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"),
+                                                 folder / "a.off"};
   const Model model = sim::load_models(files);
   EXPECT_EQ(model.meshes.at(0).name, "a");
   EXPECT_EQ(model.meshes.at(1).name, "a#2");

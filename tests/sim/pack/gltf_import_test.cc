@@ -11,18 +11,18 @@
 namespace usuzumi {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 using sim::Error;
 using sim::ExitCode;
 using sim::load_model;
 using sim::Mesh;
 using sim::Model;
+using ::testing::AllOf;
 using testing::face_corners;
 using testing::faces_of;
 using testing::GltfBuilder;
+using ::testing::HasSubstr;
 using testing::json;
+using ::testing::Not;
 using testing::one_triangle;
 using testing::TempFolder;
 
@@ -78,7 +78,8 @@ TEST(GltfImport, ReadsBuffersFromFilesBesideWithEscapedNamesAndSlackAtTheEnd) {
 
 TEST(GltfImport, AppliesTranslationRotationAndScaleInThatOrderDownTheTree) {
   GltfBuilder gltf = one_triangle();
-  // The child doubles x, then turns +90 degrees about z ((x y) becomes (-y x)), then moves by (0 0 1); the parent moves by (10 0 0).
+  // The child doubles x, then turns +90 degrees about z ((x y) becomes (-y x)), then moves by (0 0 1); the parent moves
+  // by (10 0 0).
   const double half = std::sqrt(0.5);
   gltf.document["nodes"][0]["scale"] = {2, 1, 1};
   gltf.document["nodes"][0]["rotation"] = {0, 0, half, half};
@@ -132,12 +133,14 @@ TEST(GltfImport, TakesStripsAndFansApartWithTheirWinding) {
   GltfBuilder strip;
   int p = strip.positions(square);
   strip.node({{"mesh", strip.mesh({{"attributes", {{"POSITION", p}}}, {"mode", 5}})}});
-  EXPECT_EQ(faces_of(load(strip).meshes[0]), (std::multiset{face_corners({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), face_corners({1, 0, 0}, {1, 1, 0}, {0, 1, 0})}));
+  EXPECT_EQ(faces_of(load(strip).meshes[0]), (std::multiset{face_corners({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                                                            face_corners({1, 0, 0}, {1, 1, 0}, {0, 1, 0})}));
   GltfBuilder fan;
   p = fan.positions(square);
   const int i = fan.indices({0, 1, 3, 2});
   fan.node({{"mesh", fan.mesh({{"attributes", {{"POSITION", p}}}, {"mode", 6}, {"indices", i}})}});
-  EXPECT_EQ(faces_of(load(fan).meshes[0]), (std::multiset{face_corners({0, 0, 0}, {1, 0, 0}, {1, 1, 0}), face_corners({0, 0, 0}, {1, 1, 0}, {0, 1, 0})}));
+  EXPECT_EQ(faces_of(load(fan).meshes[0]), (std::multiset{face_corners({0, 0, 0}, {1, 0, 0}, {1, 1, 0}),
+                                                          face_corners({0, 0, 0}, {1, 1, 0}, {0, 1, 0})}));
 }
 
 TEST(GltfImport, SaysThatPointsAndLinesAreLeftOut) {
@@ -150,7 +153,8 @@ TEST(GltfImport, SaysThatPointsAndLinesAreLeftOut) {
 
 TEST(GltfImport, ReadsNormalizedAndSparseAndBufferlessAccessors) {
   GltfBuilder gltf;
-  // Signed shorts: 32767 is 1, -32768 is clamped to -1. No padding: 4 components would be needed, so a stride of 8 is said.
+  // Signed shorts: 32767 is 1, -32768 is clamped to -1. No padding: 4 components would be needed, so a stride of 8 is
+  // said.
   const std::vector<std::int16_t> shorts{0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0};
   const int quantized = gltf.accessor(shorts, 5122, "VEC3", 4);
   gltf.document["accessors"][0]["normalized"] = true;
@@ -161,8 +165,12 @@ TEST(GltfImport, ReadsNormalizedAndSparseAndBufferlessAccessors) {
   const std::vector<std::uint16_t> which{1, 2};
   const std::vector<float> values{3, 0, 0, 0, 4, 0};
   const int wi = gltf.view(std::as_bytes(std::span(which))), vi = gltf.view(std::as_bytes(std::span(values)));
-  gltf.document["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 3},
-      {"sparse", {{"count", 2}, {"indices", {{"bufferView", wi}, {"componentType", 5123}}}, {"values", {{"bufferView", vi}}}}}});
+  gltf.document["accessors"].push_back(
+      {{"componentType", 5126},
+       {"type", "VEC3"},
+       {"count", 3},
+       {"sparse",
+        {{"count", 2}, {"indices", {{"bufferView", wi}, {"componentType", 5123}}}, {"values", {{"bufferView", vi}}}}}});
   gltf.node({{"mesh", gltf.mesh({{"attributes", {{"POSITION", 1}}}}, "sparse")}});
   const Model model = load(gltf);
   EXPECT_EQ(faces_of(model.meshes[0]), std::multiset{face_corners({0, 0, 0}, {1, 0, 0}, {0, -1, 0})});
@@ -170,9 +178,11 @@ TEST(GltfImport, ReadsNormalizedAndSparseAndBufferlessAccessors) {
 }
 
 TEST(GltfImport, EncodesLinearColoursForTheDisplay) {
-  // The sRGB code of linear 0.5 is 188 (187.52), of 0.25 137 (136.96), of 0.002 (straight part: 0.02584 * 255) 7 (6.59).
+  // The sRGB code of linear 0.5 is 188 (187.52), of 0.25 137 (136.96), of 0.002 (straight part: 0.02584 * 255) 7
+  // (6.59).
   GltfBuilder gltf = one_triangle();
-  gltf.document["materials"] = json::array({{{"doubleSided", true}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.002, 1, 0.5}}}}}});
+  gltf.document["materials"] =
+      json::array({{{"doubleSided", true}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.002, 1, 0.5}}}}}});
   gltf.document["meshes"][0]["primitives"][0]["material"] = 0;
   const Mesh plain = load(gltf).meshes[0];
   EXPECT_EQ(plain.base_colour, rgba8(188, 7, 255, 128));
@@ -186,7 +196,8 @@ TEST(GltfImport, EncodesLinearColoursForTheDisplay) {
   gltf.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.25, 1, 1, 1};
   const Mesh painted = load(gltf).meshes[0];
   ASSERT_EQ(painted.colours.size(), 3u);
-  EXPECT_THAT(painted.colours, ::testing::UnorderedElementsAre(rgba8(137, 255, 255), rgba8(137, 255, 255), rgba8(0, 0, 0)));
+  EXPECT_THAT(painted.colours,
+              ::testing::UnorderedElementsAre(rgba8(137, 255, 255), rgba8(137, 255, 255), rgba8(0, 0, 0)));
 }
 
 TEST(GltfImport, EachPrimitiveOfEachPlacementIsAMeshWithANameOfItsOwn) {
@@ -229,12 +240,15 @@ TEST(GltfExtras, OfTheNodeWinOverThoseOfTheMeshKeyByKey) {
 }
 
 TEST(GltfExtras, BadValuesAreRefusedWithTheNodesName) {
-  for (const json& extras : {json{{"thinning_level", 6}}, json{{"thinning_level", 1.5}}, json{{"thinning_level", "high"}}, json{{"face_quota", 0}},
-                             json{{"face_quota", "101%"}}, json{{"face_quota", "0%"}}, json{{"face_quota", -3}}, json{{"area_threshold_px", -1}},
-                             json{{"area_threshold_px", "wide"}}, json{{"telltale", 2}}, json{{"telltale", json::array()}}}) {
+  for (const json& extras :
+       {json{{"thinning_level", 6}}, json{{"thinning_level", 1.5}}, json{{"thinning_level", "high"}},
+        json{{"face_quota", 0}}, json{{"face_quota", "101%"}}, json{{"face_quota", "0%"}}, json{{"face_quota", -3}},
+        json{{"area_threshold_px", -1}}, json{{"area_threshold_px", "wide"}}, json{{"telltale", 2}},
+        json{{"telltale", json::array()}}}) {
     GltfBuilder gltf = one_triangle();
     gltf.document["nodes"][0]["extras"] = extras;
-    EXPECT_THAT(refusal(gltf), AllOf(HasSubstr("node 'Plate'"), HasSubstr(extras.begin().key()), HasSubstr("must be"))) << extras;
+    EXPECT_THAT(refusal(gltf), AllOf(HasSubstr("node 'Plate'"), HasSubstr(extras.begin().key()), HasSubstr("must be")))
+        << extras;
   }
 }
 
@@ -245,7 +259,8 @@ TEST(GltfExtras, ThatWouldDoNothingAreTold) {
   const Model model = load(gltf);
   EXPECT_FALSE(model.meshes[0].tags.any());
   EXPECT_THAT(model.notes, ::testing::Contains(AllOf(HasSubstr("node 'Group'"), HasSubstr("no mesh"))));
-  EXPECT_THAT(model.notes, ::testing::Contains(AllOf(HasSubstr("thining_level"), HasSubstr("did you mean thinning_level"))));
+  EXPECT_THAT(model.notes,
+              ::testing::Contains(AllOf(HasSubstr("thining_level"), HasSubstr("did you mean thinning_level"))));
 }
 
 TEST(GltfRefusal, CompressionSaysHowToExportAgain) {
@@ -281,7 +296,11 @@ TEST(GltfRefusal, EveryRangeIsChecked) {
       {"accessor below zero", [](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -2; }},
       {"accessor count", [](json& d) { d["accessors"][0]["count"] = 4; }},
       {"accessor count overflow", [](json& d) { d["accessors"][0]["count"] = 1537228672809129302ull; }},
-      {"zeros without end", [](json& d) { d["accessors"][0].erase("bufferView"); d["accessors"][0]["count"] = 4294967295u; }},
+      {"zeros without end",
+       [](json& d) {
+         d["accessors"][0].erase("bufferView");
+         d["accessors"][0]["count"] = 4294967295u;
+       }},
       {"accessor offset", [](json& d) { d["accessors"][0]["byteOffset"] = 4; }},
       {"accessor offset overflow", [](json& d) { d["accessors"][0]["byteOffset"] = 18446744073709551612ull; }},
       {"accessor type", [](json& d) { d["accessors"][0]["type"] = "VEC2"; }},
@@ -300,13 +319,38 @@ TEST(GltfRefusal, EveryRangeIsChecked) {
       {"scene number", [](json& d) { d["scene"] = 5; }},
       {"mode", [](json& d) { d["meshes"][0]["primitives"][0]["mode"] = 9; }},
       {"node is its own child", [](json& d) { d["nodes"][0]["children"] = {0}; }},
-      {"rotation of three numbers", [](json& d) { d["nodes"][0]["rotation"] = {0, 0, 1}; }},
-      {"transform not finite", [](json& d) { d["nodes"][0]["scale"] = {1e308, 1e308, 1e308}; d["nodes"][0]["translation"] = {1e308, 0, 0};
-                                             d["nodes"].push_back({{"children", {0}}, {"scale", {1e308, 1, 1}}}); d["scenes"][0]["nodes"] = {1}; }},
-      {"positions beyond single precision", [](json& d) { d["nodes"][0]["scale"] = {1e39, 1, 1}; }},
-      {"sparse index", [](json& d) { d["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5125}, {"byteOffset", 12}}}, {"values", {{"bufferView", 0}}}}; }},
-      {"sparse count", [](json& d) { d["accessors"][0]["sparse"] = {{"count", 9}, {"indices", {{"bufferView", 0}, {"componentType", 5121}}}, {"values", {{"bufferView", 0}}}}; }},
-      {"sparse offset", [](json& d) { d["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5121}, {"byteOffset", -4}}}, {"values", {{"bufferView", 0}}}}; }},
+      {"rotation of three numbers",
+       [](json& d) {
+         d["nodes"][0]["rotation"] = {0, 0, 1};
+       }},
+      {"transform not finite",
+       [](json& d) {
+         d["nodes"][0]["scale"] = {1e308, 1e308, 1e308};
+         d["nodes"][0]["translation"] = {1e308, 0, 0};
+         d["nodes"].push_back({{"children", {0}}, {"scale", {1e308, 1, 1}}});
+         d["scenes"][0]["nodes"] = {1};
+       }},
+      {"positions beyond single precision",
+       [](json& d) {
+         d["nodes"][0]["scale"] = {1e39, 1, 1};
+       }},
+      {"sparse index",
+       [](json& d) {
+         d["accessors"][0]["sparse"] = {{"count", 1},
+                                        {"indices", {{"bufferView", 0}, {"componentType", 5125}, {"byteOffset", 12}}},
+                                        {"values", {{"bufferView", 0}}}};
+       }},
+      {"sparse count",
+       [](json& d) {
+         d["accessors"][0]["sparse"] = {
+             {"count", 9}, {"indices", {{"bufferView", 0}, {"componentType", 5121}}}, {"values", {{"bufferView", 0}}}};
+       }},
+      {"sparse offset",
+       [](json& d) {
+         d["accessors"][0]["sparse"] = {{"count", 1},
+                                        {"indices", {{"bufferView", 0}, {"componentType", 5121}, {"byteOffset", -4}}},
+                                        {"values", {{"bufferView", 0}}}};
+       }},
   };
   for (const auto& [name, change] : changes) {
     SCOPED_TRACE(name);

@@ -16,12 +16,13 @@
 namespace usuzumi {
 namespace {
 
-using ::testing::HasSubstr;
 using sim::Error;
 using sim::ExitCode;
+using ::testing::HasSubstr;
 using Work = std::function<std::vector<std::byte>()>;
 
-std::string failure(const Work& work, ExitCode code = ExitCode::kBadInput, std::chrono::seconds limit = std::chrono::seconds(30)) {
+std::string failure(const Work& work, ExitCode code = ExitCode::kBadInput,
+                    std::chrono::seconds limit = std::chrono::seconds(30)) {
   try {
     sim::run_isolated("car.obj", limit, work);
   } catch (const Error& e) {
@@ -41,16 +42,28 @@ TEST(Isolation, HandsBackTheBytes) {
 }
 
 TEST(Isolation, PassesErrorsOnWithTheirCode) {
-  EXPECT_EQ(failure([]() -> std::vector<std::byte> { throw Error(ExitCode::kUsage, "car.obj: so and so"); }, ExitCode::kUsage), "car.obj: so and so");
-  EXPECT_THAT(failure([]() -> std::vector<std::byte> { throw std::runtime_error("odd"); }), HasSubstr("car.obj: cannot be read: odd"));
+  EXPECT_EQ(failure([]() -> std::vector<std::byte> { throw Error(ExitCode::kUsage, "car.obj: so and so"); },
+                    ExitCode::kUsage),
+            "car.obj: so and so");
+  EXPECT_THAT(failure([]() -> std::vector<std::byte> { throw std::runtime_error("odd"); }),
+              HasSubstr("car.obj: cannot be read: odd"));
   EXPECT_THAT(failure([]() -> std::vector<std::byte> { throw std::bad_alloc(); }), HasSubstr("memory"));
 }
 
 TEST(Isolation, CrashesHangsAndSilenceBecomeOneLine) {
-  EXPECT_THAT(failure([]() -> std::vector<std::byte> { std::raise(SIGSEGV); return {}; }), HasSubstr("car.obj: the importer"));
+  EXPECT_THAT(failure([]() -> std::vector<std::byte> {
+                std::raise(SIGSEGV);
+                return {};
+              }),
+              HasSubstr("car.obj: the importer"));
   EXPECT_THAT(failure([]() -> std::vector<std::byte> { std::abort(); }), HasSubstr("crashed"));
   EXPECT_THAT(failure([]() -> std::vector<std::byte> { ::_exit(0); }), HasSubstr("without a word"));
-  EXPECT_THAT(failure([]() -> std::vector<std::byte> { for (;;) ::pause(); }, ExitCode::kBadInput, std::chrono::seconds(1)), HasSubstr("--time-limit"));
+  EXPECT_THAT(failure(
+                  []() -> std::vector<std::byte> {
+                    for (;;) ::pause();
+                  },
+                  ExitCode::kBadInput, std::chrono::seconds(1)),
+              HasSubstr("--time-limit"));
 }
 
 TEST(Isolation, DropsWhatTheChildPrints) {
@@ -94,7 +107,9 @@ TEST(ModelBytes, GoThereAndBack) {
 TEST(ModelBytes, EveryPrefixIsRefused) {
   const std::vector<std::byte> bytes = sim::model_to_bytes(sample());
   for (std::size_t n = 0; n < bytes.size(); ++n)
-    EXPECT_THROW(sim::model_from_bytes(std::vector(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n)), "x"), Error) << n;
+    EXPECT_THROW(sim::model_from_bytes(std::vector(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n)), "x"),
+                 Error)
+        << n;
 }
 
 }  // namespace

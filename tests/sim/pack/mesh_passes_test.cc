@@ -1,4 +1,5 @@
-// The passes between importer and ROM: normals, welding, strips, names, colours. Shapes small enough to count on fingers.
+// The passes between importer and ROM: normals, welding, strips, names, colours. Shapes small enough to count on
+// fingers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,16 +17,18 @@
 namespace usuzumi {
 namespace {
 
-using ::testing::HasSubstr;
 using sim::Mesh;
 using testing::face_corners;
 using testing::faces_of;
+using ::testing::HasSubstr;
 
 /// A box of edge 1 with shared corners: 8 vertices, 12 faces.
 Mesh box() {
   Mesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.push_back({static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
-  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.push_back({static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
+  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
   return mesh;
 }
 
@@ -34,7 +37,8 @@ Mesh tube(std::uint32_t sides) {
   Mesh mesh;
   for (std::uint32_t s = 0; s < sides; ++s) {
     const double a = 2 * M_PI * s / sides;
-    for (float z : {0.0f, 1.0f}) mesh.positions.push_back({static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a)), z});
+    for (float z : {0.0f, 1.0f})
+      mesh.positions.push_back({static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a)), z});
   }
   for (std::uint32_t s = 0; s < sides; ++s) {
     const std::uint32_t a = 2 * s, b = 2 * ((s + 1) % sides);
@@ -49,7 +53,8 @@ TEST(Normals, OfABoxAreItsSixSidesAndItsEdgesStaySharp) {
   sim::weld_vertices(mesh);
   EXPECT_EQ(mesh.positions.size(), 24u);
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+    const Vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+               c = mesh.positions[mesh.indices[i + 2]];
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh.normals[mesh.indices[i + k]], normalized(cross(b - a, c - a)));
   }
 }
@@ -60,7 +65,9 @@ TEST(Normals, OfARoundTubePointAwayFromItsAxis) {
   sim::weld_vertices(mesh);
   EXPECT_EQ(mesh.positions.size(), 48u) << "smooth: no vertex is parted";
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    EXPECT_GT(mesh.normals[v].x * mesh.positions[v].x + mesh.normals[v].y * mesh.positions[v].y, std::cos(3.0 * M_PI / 180)) << v;
+    EXPECT_GT(mesh.normals[v].x * mesh.positions[v].x + mesh.normals[v].y * mesh.positions[v].y,
+              std::cos(3.0 * M_PI / 180))
+        << v;
 }
 
 TEST(Normals, PartVerticesWhereSidesMeetAboveSixtyDegreesOnly) {
@@ -130,7 +137,8 @@ TEST(Strip, OfASingleFaceIsItsThreeCornersAndOfATubeNearlyOneRun) {
   Mesh one = box();
   one.indices.resize(3);
   EXPECT_EQ(sim::triangle_strip(one).size(), 3u);
-  EXPECT_LE(sim::triangle_strip(tube(40)).size(), 80u + 8u) << "80 faces in a ring need 82 vertices when they are one run";
+  EXPECT_LE(sim::triangle_strip(tube(40)).size(), 80u + 8u)
+      << "80 faces in a ring need 82 vertices when they are one run";
 }
 
 TEST(Strip, SurvivesAnySoupOfFaces) {
@@ -139,7 +147,8 @@ TEST(Strip, SurvivesAnySoupOfFaces) {
   for (int round = 0; round < 50; ++round) {
     Mesh mesh;
     const std::uint32_t vertices = 3 + random(12);
-    for (std::uint32_t v = 0; v < vertices; ++v) mesh.positions.push_back({static_cast<float>(v), static_cast<float>(v % 3), static_cast<float>(v % 5)});
+    for (std::uint32_t v = 0; v < vertices; ++v)
+      mesh.positions.push_back({static_cast<float>(v), static_cast<float>(v % 3), static_cast<float>(v % 5)});
     for (std::uint32_t f = 0; f < 40; ++f) {  // faces twice, turned over, edges with many faces, all of it
       const std::uint32_t a = random(vertices), b = random(vertices), c = random(vertices);
       mesh.indices.insert(mesh.indices.end(), {a, b, c});

@@ -1,4 +1,5 @@
-// The commands pack and inspect as people use them: options, sidecars, precedence, exit codes, what is left on the disk.
+// The commands pack and inspect as people use them: options, sidecars, precedence, exit codes, what is left on the
+// disk.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,13 +13,13 @@ namespace usuzumi {
 namespace {
 
 using ::testing::AllOf;
+using testing::CommandResult;
 using ::testing::ElementsAre;
+using testing::GltfBuilder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
-using testing::CommandResult;
-using testing::GltfBuilder;
 using testing::json;
+using ::testing::Not;
 using testing::run_usuzumi;
 using testing::TempFolder;
 
@@ -27,7 +28,8 @@ std::string car(const TempFolder& folder) {
   GltfBuilder gltf;
   const int p = gltf.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
   const json primitive = {{"attributes", {{"POSITION", p}}}};
-  const int body = gltf.mesh(primitive, "body"), wheel = gltf.mesh(primitive, "wheel"), glass = gltf.mesh(primitive, "glass");
+  const int body = gltf.mesh(primitive, "body"), wheel = gltf.mesh(primitive, "wheel"),
+            glass = gltf.mesh(primitive, "glass");
   gltf.document["meshes"][2]["extras"] = {{"thinning_level", 2}};
   gltf.node({{"name", "Body"}, {"mesh", body}, {"extras", {{"thinning_level", 1}}}});
   gltf.node({{"name", "Front left"}, {"mesh", wheel}});
@@ -80,7 +82,8 @@ TEST(PackCommand, TakesLevelsFromExtrasNodeOverMesh) {
 TEST(PackCommand, OptionsWinOverSidecarOverExtrasOverDefault) {
   TempFolder folder;
   const std::string model = car(folder);
-  const std::string sidecar = folder.write("s.json", R"({"meshes": {"*": {"thinning_level": 4}, "body": {"thinning_level": 5}}})");
+  const std::string sidecar =
+      folder.write("s.json", R"({"meshes": {"*": {"thinning_level": 4}, "body": {"thinning_level": 5}}})");
   EXPECT_THAT(levels(packed(folder, {model, "--default-level", "3"})), ElementsAre(1, 3, 3, 2));
   EXPECT_THAT(levels(packed(folder, {model, "--sidecar", sidecar, "--default-level", "3"})), ElementsAre(5, 4, 4, 4));
   EXPECT_THAT(levels(packed(folder, {model, "--sidecar", sidecar, "--level", "wheel#2=3"})), ElementsAre(5, 4, 3, 4));
@@ -103,7 +106,8 @@ TEST(PackCommand, PatternsMeanMeshNamesUniqueNamesAndNodeNames) {
 
 TEST(PackCommand, WritesQuotasAreasAndTelltales) {
   TempFolder folder;
-  const std::string rom = packed(folder, {car(folder), "--level", "wheel=3", "--quota", "wheel=12.5%", "--quota", "wheel#2=7", "--area", "wheel=400.5", "--telltale", "gl*"});
+  const std::string rom = packed(folder, {car(folder), "--level", "wheel=3", "--quota", "wheel=12.5%", "--quota",
+                                          "wheel#2=7", "--area", "wheel=400.5", "--telltale", "gl*"});
   const json meshes = inspected(rom)["meshes"];
   EXPECT_EQ(meshes[1]["face_quota"], "12.5%");
   EXPECT_EQ(meshes[2]["face_quota"], 7);
@@ -117,17 +121,24 @@ TEST(PackCommand, OptionThatFitsNoMeshIsAnErrorWithCloseNames) {
   TempFolder folder;
   const std::string model = car(folder);
   for (const char* option : {"--level", "--quota", "--area"})
-    EXPECT_THAT(refused(folder, {model, option, "weel=3"}, 2), AllOf(HasSubstr("weel"), HasSubstr("did you mean wheel"))) << option;
+    EXPECT_THAT(refused(folder, {model, option, "weel=3"}, 2),
+                AllOf(HasSubstr("weel"), HasSubstr("did you mean wheel")))
+        << option;
   EXPECT_THAT(refused(folder, {model, "--telltale", "Gla"}, 2), HasSubstr("Glass"));
-  EXPECT_THAT(refused(folder, {model, "--sidecar", folder.write("s.json", R"({"meshes": {"weel": {"thinning_level": 3}}})")}, 3), HasSubstr("did you mean wheel"));
+  EXPECT_THAT(
+      refused(folder, {model, "--sidecar", folder.write("s.json", R"({"meshes": {"weel": {"thinning_level": 3}}})")},
+              3),
+      HasSubstr("did you mean wheel"));
 }
 
 TEST(PackCommand, BadOptionValuesAreUsageErrors) {
   TempFolder folder;
   const std::string model = car(folder);
-  for (const char* level : {"wheel", "=3", "wheel=6", "wheel=-1", "wheel=x", "wheel="}) refused(folder, {model, "--level", level}, 2);
+  for (const char* level : {"wheel", "=3", "wheel=6", "wheel=-1", "wheel=x", "wheel="})
+    refused(folder, {model, "--level", level}, 2);
   for (const char* quota : {"wheel=0", "wheel=101%", "wheel=a%"}) refused(folder, {model, "--quota", quota}, 2);
-  for (const char* area : {"wheel=-1", "wheel=nan", "wheel=inf", "wheel=1e999"}) refused(folder, {model, "--area", area}, 2);
+  for (const char* area : {"wheel=-1", "wheel=nan", "wheel=inf", "wheel=1e999"})
+    refused(folder, {model, "--area", area}, 2);
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--default-level", "6"}).exit_code, 2);
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--no-such-option"}).exit_code, 2);
   EXPECT_EQ(run_usuzumi({"pack", model}).exit_code, 2);
@@ -147,20 +158,24 @@ TEST(PackCommand, BadSidecarsAreRefusedByTheirFault) {
       {R"({"meshes": {"wheel": {"face_quota": null}}})", "face_quota"},
       {R"({"meshes": {"wheel": {"thinning_level": 3}, "wheel": {"thinning_level": 1}}})", "twice"},
   };
-  for (const auto& [text, fault] : cases) EXPECT_THAT(refused(folder, {model, "--sidecar", folder.write("s.json", text)}, 3), HasSubstr(fault)) << text;
+  for (const auto& [text, fault] : cases)
+    EXPECT_THAT(refused(folder, {model, "--sidecar", folder.write("s.json", text)}, 3), HasSubstr(fault)) << text;
   refused(folder, {model, "--sidecar", folder / "nowhere.json"}, 3);
 }
 
 TEST(PackCommand, SaysWhenNoMeshHasALevelAndNamesBlendersOption) {
   TempFolder folder;
   const std::string model = folder.write("a.gltf", testing::one_triangle().text());
-  EXPECT_THAT(run_usuzumi({"pack", model, "-o", folder / "out.rom"}).err, HasSubstr("Export glTF > Include > Data > Custom Properties"));
-  EXPECT_THAT(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--default-level", "1"}).err, Not(HasSubstr("Blender")));
+  EXPECT_THAT(run_usuzumi({"pack", model, "-o", folder / "out.rom"}).err,
+              HasSubstr("Export glTF > Include > Data > Custom Properties"));
+  EXPECT_THAT(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--default-level", "1"}).err,
+              Not(HasSubstr("Blender")));
 }
 
 TEST(PackCommand, SaysWhatALevelDoesNotUse) {
   TempFolder folder;
-  const CommandResult result = run_usuzumi({"pack", car(folder), "-o", folder / "out.rom", "--quota", "body=5", "--area", "body=5"});
+  const CommandResult result =
+      run_usuzumi({"pack", car(folder), "-o", folder / "out.rom", "--quota", "body=5", "--area", "body=5"});
   EXPECT_THAT(result.err, AllOf(HasSubstr("mesh 'body': face_quota"), HasSubstr("mesh 'body': area_threshold_px")));
 }
 
@@ -176,13 +191,15 @@ TEST(PackCommand, BareKeepsLevelsSaysWhatIsLostAndRefusesWhatItCannotKeep) {
   EXPECT_THAT(refused(folder, {model, "--bare", "--quota", "wheel=25%"}, 2), HasSubstr("--bare"));
   EXPECT_THAT(refused(folder, {model, "--bare", "--area", "wheel=25"}, 2), HasSubstr("--bare"));
   EXPECT_THAT(refused(folder, {model, "--bare", "--telltale", "wheel"}, 2), HasSubstr("--bare"));
-  refused(folder, {model, "--bare", "--sidecar", folder.write("s.json", R"({"meshes": {"wheel": {"telltale": true}}})")}, 3);
+  refused(folder,
+          {model, "--bare", "--sidecar", folder.write("s.json", R"({"meshes": {"wheel": {"telltale": true}}})")}, 3);
 }
 
 TEST(PackCommand, JoinsSeveralInputsAlsoAfterAnOption) {
   TempFolder folder;
   const std::string model = car(folder);
-  const CommandResult result = run_usuzumi({"pack", "--level", "body=3", model, "--telltale", "glass", model, "-o", folder / "out.rom"});
+  const CommandResult result =
+      run_usuzumi({"pack", "--level", "body=3", model, "--telltale", "glass", model, "-o", folder / "out.rom"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(levels(folder / "out.rom"), ElementsAre(3, 0, 0, 2, 3, 0, 0, 2));
 }
@@ -206,7 +223,8 @@ TEST(PackCommand, UnwritableOutputIsExitCodeFourAndLeavesNothing) {
 TEST(PackCommand, FailureLeavesTheOldRomAsItWas) {
   TempFolder folder;
   folder.write("out.rom", "precious");
-  const CommandResult result = run_usuzumi({"pack", folder.write("bad.obj", "v 0 0\nf 1 2 3\n"), "-o", folder / "out.rom"});
+  const CommandResult result =
+      run_usuzumi({"pack", folder.write("bad.obj", "v 0 0\nf 1 2 3\n"), "-o", folder / "out.rom"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(testing::bytes_of_file(folder / "out.rom").size(), 8u);
   EXPECT_THAT(folder.files(), ElementsAre("bad.obj", "out.rom"));
@@ -234,7 +252,8 @@ TEST(InspectCommand, ShowsEveryMeshInATableAndInJson) {
   const std::string rom = packed(folder, {car(folder), "--level", "wheel=3", "--quota", "wheel=25%"});
   const CommandResult table = run_usuzumi({"inspect", rom});
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(table.out, AllOf(HasSubstr("container version 1.0"), HasSubstr("4 meshes"), HasSubstr("sound"), HasSubstr("wheel#2"), HasSubstr("3 collapse"), HasSubstr("25%")));
+  EXPECT_THAT(table.out, AllOf(HasSubstr("container version 1.0"), HasSubstr("4 meshes"), HasSubstr("sound"),
+                               HasSubstr("wheel#2"), HasSubstr("3 collapse"), HasSubstr("25%")));
   const json all = inspected(rom);
   EXPECT_EQ(all["sound"], true);
   EXPECT_EQ(all["bytes"], testing::bytes_of_file(rom).size());

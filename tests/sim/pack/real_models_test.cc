@@ -32,7 +32,8 @@ std::vector<std::string> model_files() {
     if (!fs::exists(folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       std::string extension = entry.path().extension().string();
-      std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       if (entry.is_regular_file() && kExtensions.contains(extension)) files.push_back(entry.path().string());
     }
   }
@@ -84,7 +85,8 @@ TEST(RealModels, BareRomsDrawTheSameFaces) {
   const auto container = DrawingData::open(container_bytes), bare = DrawingData::open(bare_bytes);
   ASSERT_TRUE(container.ok() && bare.ok());
   ASSERT_EQ(container->mesh_max(), bare->mesh_max());
-  for (std::uint32_t n = 0; n < bare->mesh_max(); ++n) EXPECT_EQ(testing::faces_of(bare->mesh(n)), testing::faces_of(container->mesh(n)));
+  for (std::uint32_t n = 0; n < bare->mesh_max(); ++n)
+    EXPECT_EQ(testing::faces_of(bare->mesh(n)), testing::faces_of(container->mesh(n)));
 }
 
 /// An independent reading of a .glb's geometry, straight from its JSON and binary chunk.
@@ -102,7 +104,8 @@ struct PlainGlb {
   }
   std::size_t offset(const json& accessor, std::size_t element, std::size_t packed_bytes) const {
     const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) + element * view.value("byteStride", packed_bytes);
+    return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0}) +
+           element * view.value("byteStride", packed_bytes);
   }
   /// Vertex number of corner `i` (all of this file's indices are unsigned shorts).
   std::uint16_t index(const json& accessor, std::size_t i) const {
@@ -129,7 +132,8 @@ TEST(RealModels, EngineHasTheMeshesAndFacesThatItsJsonCounts) {
       const json& positions = glb.document["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
       ASSERT_EQ(order["componentType"], 5123);
       for (std::size_t i = 0; i < order["count"].get<std::size_t>(); i += 3) {
-        const auto a = glb.position(positions, glb.index(order, i)), b = glb.position(positions, glb.index(order, i + 1)),
+        const auto a = glb.position(positions, glb.index(order, i)),
+                   b = glb.position(positions, glb.index(order, i + 1)),
                    c = glb.position(positions, glb.index(order, i + 2));
         ++all;
         real += a != b && b != c && c != a ? 1u : 0u;
@@ -175,11 +179,13 @@ TEST(RealModels, TruckHasTheMeshesFacesAndNamesOfItsJson) {
   EXPECT_EQ(meshes, 5u);
   std::multiset<std::string> names;
   for (const json& mesh : report["meshes"]) names.insert(mesh["name"]);
-  EXPECT_EQ(names, (std::multiset<std::string>{"Cesium_Milk_Truck", "Cesium_Milk_Truck#2", "Cesium_Milk_Truck#3", "Wheels", "Wheels#2"}));
+  EXPECT_EQ(names, (std::multiset<std::string>{"Cesium_Milk_Truck", "Cesium_Milk_Truck#2", "Cesium_Milk_Truck#3",
+                                               "Wheels", "Wheels#2"}));
   // The wheels' nodes move them by +1.43267 and -1.35233 in x; a wheel pair is symmetric about its own origin.
   for (const json& mesh : report["meshes"]) {
     if (mesh["name"].get<std::string>().substr(0, 6) != "Wheels") continue;
-    const double middle = (mesh["bounding_box"]["min"][0].get<double>() + mesh["bounding_box"]["max"][0].get<double>()) / 2;
+    const double middle =
+        (mesh["bounding_box"]["min"][0].get<double>() + mesh["bounding_box"]["max"][0].get<double>()) / 2;
     EXPECT_TRUE(std::abs(middle - 1.43267) < 0.1 || std::abs(middle + 1.35233) < 0.1) << middle;
   }
 }

@@ -34,7 +34,8 @@ std::vector<std::byte> page_example(const std::string& name) {
       std::istringstream words(line);
       for (std::string word; words >> word;) {
         if (word.size() == 5 && word[4] == ':') continue;  // the offset on the left
-        if (word.size() != 2 || word.find_first_not_of("0123456789abcdef") != std::string::npos) break;  // the remark on the right
+        if (word.size() != 2 || word.find_first_not_of("0123456789abcdef") != std::string::npos)
+          break;  // the remark on the right
         bytes.push_back(static_cast<std::byte>(std::stoi(word, nullptr, 16)));
       }
     }
@@ -177,7 +178,8 @@ TEST(Container, EveryFlippedBitIsRefused) {
 
 TEST(Container, OtherByteOrderIsRefusedByName) {
   std::vector<std::byte> rom = small_rom();
-  for (std::size_t i = 0; i + 3 < rom.size(); i += 4) std::reverse(rom.begin() + static_cast<std::ptrdiff_t>(i), rom.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+  for (std::size_t i = 0; i + 3 < rom.size(); i += 4)
+    std::reverse(rom.begin() + static_cast<std::ptrdiff_t>(i), rom.begin() + static_cast<std::ptrdiff_t>(i) + 4);
   const auto opened = DrawingData::open(rom);
   ASSERT_FALSE(opened.ok());
   EXPECT_THAT(opened.status().message, ::testing::HasSubstr("big-endian"));

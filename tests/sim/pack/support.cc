@@ -42,14 +42,16 @@ std::string base64(std::span<const std::byte> bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
     for (std::size_t k = 0; k < 4; ++k) text += k <= bytes.size() - i ? kLetters[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }
 
 GltfBuilder::GltfBuilder() {
-  document = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
+  document =
+      json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
                              "accessors": [], "bufferViews": []})");
 }
 
@@ -60,7 +62,8 @@ int GltfBuilder::view(std::span<const std::byte> bytes) {
   return static_cast<int>(document["bufferViews"].size()) - 1;
 }
 
-int GltfBuilder::add_accessor(std::span<const std::byte> bytes, int component, const std::string& type, std::size_t count) {
+int GltfBuilder::add_accessor(std::span<const std::byte> bytes, int component, const std::string& type,
+                              std::size_t count) {
   const int v = view(bytes);
   document["accessors"].push_back({{"bufferView", v}, {"componentType", component}, {"type", type}, {"count", count}});
   return static_cast<int>(document["accessors"].size()) - 1;
@@ -83,7 +86,8 @@ int GltfBuilder::node(const json& node) {
 std::string GltfBuilder::text() const {
   json complete = document;
   if (!complete.contains("buffers"))
-    complete["buffers"] = json::array({{{"byteLength", buffer_.size()}, {"uri", "data:application/octet-stream;base64," + base64(buffer_)}}});
+    complete["buffers"] = json::array(
+        {{{"byteLength", buffer_.size()}, {"uri", "data:application/octet-stream;base64," + base64(buffer_)}}});
   return complete.dump();
 }
 
@@ -145,7 +149,8 @@ FaceCorners face_corners(Vec3 a, Vec3 b, Vec3 c) {
 std::multiset<FaceCorners> faces_of(const sim::Mesh& mesh) {
   std::multiset<FaceCorners> faces;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-    faces.insert(face_corners(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]], mesh.positions[mesh.indices[i + 2]]));
+    faces.insert(face_corners(mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                              mesh.positions[mesh.indices[i + 2]]));
   return faces;
 }
 

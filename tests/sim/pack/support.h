@@ -1,4 +1,5 @@
-// What the tests of pack share: a folder that vanishes, small glTF files written word by word, the command run in process.
+// What the tests of pack share: a folder that vanishes, small glTF files written word by word, the command run in
+// process.
 #pragma once
 
 #include <array>
