@@ -117,21 +117,28 @@ bool SoftEngine::lay_out_memory() {
   const std::uint32_t threads = runner_ == nullptr ? 1 : std::clamp(runner_->thread_count(), 1u, kMaxWorkers);
   const Layout layout(work_memory_.size(), tiles, threads);
   Arena arena(work_memory_);
+  bool fits = true;
+  const auto take = [&]<class T>(std::span<T>& table, std::size_t count, std::size_t alignment = alignof(T)) {
+    table = arena.allocate<T>(count, alignment);
+    fits = fits && !table.empty();
+    return table.data();
+  };
   worker_count_ = layout.workers;
   for (std::uint32_t w = 0; w < worker_count_; ++w) {
-    workers_[w].colour = arena.allocate<std::uint32_t>(kTilePixels, kCacheLine).data();
-    workers_[w].depth = arena.allocate<std::uint32_t>(kTilePixels, kCacheLine).data();
-    workers_[w].vertices = arena.allocate<Vertex>(layout.vertices, kCacheLine).data();
+    std::span<std::uint32_t> pixels;
+    std::span<Vertex> vertices;
+    workers_[w].colour = take(pixels, kTilePixels, kCacheLine);
+    workers_[w].depth = take(pixels, kTilePixels, kCacheLine);
+    workers_[w].vertices = take(vertices, layout.vertices, kCacheLine);
     workers_[w].vertex_capacity = layout.vertices;
   }
-  draws_ = arena.allocate<DrawSetup>(layout.draws);
-  clears_ = arena.allocate<ClearOperation>(layout.clears);
-  items_ = arena.allocate<WorkItem>(layout.items);
-  jobs_ = arena.allocate<Job>(layout.jobs);
-  lists_ = arena.allocate<TileList>(std::size_t{layout.jobs} * tiles);
-  if (lists_.empty()) return false;
+  take(draws_, layout.draws);
+  take(clears_, layout.clears);
+  take(items_, layout.items);
+  take(jobs_, layout.jobs);
+  take(lists_, std::size_t{layout.jobs} * tiles);
   const std::size_t padding = kCacheLine;
-  if (arena.available() < minimum_slots(tiles) * std::size_t{kSlotBytes} + padding) return false;
+  if (!fits || arena.available() < minimum_slots(tiles) * std::size_t{kSlotBytes} + padding) return false;
   const auto slots = static_cast<std::uint32_t>(std::min<std::size_t>((arena.available() - padding) / kSlotBytes, kEntrySlotMask));
   pool_.reset(arena.allocate<Slot>(slots, kCacheLine).data(), slots);
   round_.draws = draws_.data();
