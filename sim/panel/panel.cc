@@ -42,7 +42,7 @@ void Panel::end_line() {
 /// At the rise of VSYNC: what has been received since the last one is a picture, or nothing.
 void Panel::end_picture() {
   if (line_pixels_ != 0) distrust();  // VSYNC amid a line of picture
-  if (synchronised_ && (height_ > 0 || !trusted_)) {
+  if (height_ > 0 || !trusted_) {  // neither before the first VSYNC
     stable_ = trusted_;
     if (trusted_) {
       shown_.picture.width = width_;

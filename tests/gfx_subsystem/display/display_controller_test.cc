@@ -316,6 +316,32 @@ TEST(DisplayController, LayersThatCannotBeObeyedAreLeftOutAndNamed) {
   for (const auto& line : d.cable.lines) EXPECT_EQ(line, std::vector<std::uint32_t>(8, 0x00B0B0));
 }
 
+TEST(DisplayController, ALayerNeverWrapsAroundTheAddressSpace) {
+  // A bus on which every address is memory.
+  class Everywhere final : public BusMemory {
+    std::span<const std::byte> do_read_window(BusAddress, std::size_t size) const override {
+      return std::as_bytes(std::span(words_)).first(size);
+    }
+    std::span<std::byte> do_write_window(BusAddress, std::size_t) override { return {}; }
+    std::vector<std::uint32_t> words_ = std::vector<std::uint32_t>(64, 0x00FFFFFF);
+  };
+  SmallDisplay d;  // for its timing, copied below
+  Everywhere memory;
+  CableTap cable;
+  DisplayController controller(memory, cable, {});
+  for (const std::uint32_t offset : {0x004u, 0x008u, 0x00Cu, 0x010u, 0x014u}) controller.write(offset, d.read(offset));
+  controller.write(0x140, 0x00FF0001);
+  controller.write(0x144, 32);
+  controller.write(0x148, 0xFFFFFFE0);  // line 0 is the last of the address space
+  controller.write(0x154, 3u << 16 | 7);
+  controller.write(0x100, 1u << 31 | 1u << 16 | 3u << 8);
+  controller.advance_to(kFirstBlank - 1);
+  ASSERT_EQ(cable.lines.size(), 4u);
+  EXPECT_EQ(cable.lines[0][0], 0x00FFFFFFu);
+  EXPECT_EQ(cable.lines[1][0], 0u);
+  EXPECT_EQ(controller.read(0x03C), 0x00010000u);
+}
+
 TEST(DisplayController, SlowBusStarvesTheRestOfTheLineAndRaisesTheFault) {
   // Twelve pixels of 4 ticks: a byte a tick is 4 bytes a pixel. Eight pixels of two layers need 8 bytes each; the blank of 4
   // pixels fills the FIFO with 16 bytes: before pixel k it holds 16 - 4 k, so that pixel 3 (4 bytes) starves. Line 0 has had

@@ -106,6 +106,23 @@ TEST(Panel, LinesOfDifferentLengthAreUnstableAndThePictureIsDropped) {
   EXPECT_EQ(panel.frames_completed(), 2u);
 }
 
+TEST(Panel, UnequalPictureLinesInLinesOfEqualLengthAreUnstable) {
+  Panel panel;
+  Sender sender(panel);
+  const std::uint32_t pixels[5] = {};
+  sender.vsync_line(4);
+  sender.picture_line(4, 0);
+  sender.picture_line(4, 0);
+  panel.segment({.data_enable = true, .pixel_count = 5, .xrgb = pixels});  // no front porch
+  panel.segment({.hsync = true, .pixel_count = 2});
+  panel.segment({.pixel_count = 1});
+  sender.picture_line(4, 0);
+  sender.blank_line(4);
+  sender.vsync_line(4);
+  EXPECT_EQ(panel.frames_completed(), 0u);
+  EXPECT_EQ(panel.frames_dropped(), 1u);
+}
+
 TEST(Panel, EqualPictureLinesWithUnequalBlankingAreUnstable) {
   Panel panel;
   Sender sender(panel);
