@@ -56,6 +56,12 @@ class DrawingData {
   MeshView mesh_at(std::uint32_t n, std::uint32_t record_offset) const;
   std::uint32_t first_record() const { return first_record_; }
   std::uint32_t next_record(std::uint32_t record_offset) const;
+  /// Calls `visit(MeshView)` for every mesh in order; linear in both formats.
+  template <class Visit>
+  void for_each_mesh(Visit&& visit) const {
+    std::uint32_t record = first_record_;
+    for (std::uint32_t n = 0; n < mesh_max_; ++n, record = next_record(record)) visit(mesh_at(n, record));
+  }
   std::span<const std::byte> bytes() const { return rom_; }
 
  private:

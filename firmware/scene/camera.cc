@@ -93,15 +93,14 @@ Mat4 model_to_clip(const Camera& camera, float aspect) {
 Bounds bounds_of(const DrawingData& data) {
   Bounds b;
   bool first = true;
-  std::uint32_t record = data.first_record();
-  for (std::uint32_t n = 0; n < data.mesh_max(); ++n, record = data.next_record(record)) {
-    for (const Vec3& p : data.mesh_at(n, record).positions) {
+  data.for_each_mesh([&](const MeshView& mesh) {
+    for (const Vec3& p : mesh.positions) {
       if (first) b = {p, p};
       first = false;
       b.low = {p.x < b.low.x ? p.x : b.low.x, p.y < b.low.y ? p.y : b.low.y, p.z < b.low.z ? p.z : b.low.z};
       b.high = {p.x > b.high.x ? p.x : b.high.x, p.y > b.high.y ? p.y : b.high.y, p.z > b.high.z ? p.z : b.high.z};
     }
-  }
+  });
   return b;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/common/error.h"
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 #include "sim/image/compare.h"
 
 namespace usuzumi::sim {
@@ -60,7 +60,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   command->add_option("--diff", arguments->difference, "PNG to write: where the pictures differ, in red");
   command->add_flag("--json", arguments->json, "Report as JSON");
   command->footer("Example: usuzumi compare golden.png actual.png --ignore 0:0-99:19 --diff difference.png\nExit code 0 same, 1 differ, 2 cannot compare.");
-  command->callback([arguments, &exit_code] { run_command(exit_code, [&] { return compare(*arguments); }); });
+  command->callback([arguments, &exit_code] { report_errors(exit_code, [&] { return compare(*arguments); }); });
 }
 
 }  // namespace usuzumi::sim

@@ -9,7 +9,7 @@
 
 #include "sim/common/error.h"
 #include "sim/common/files.h"
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 #include "sim/pack/rom_report.h"
 
 namespace usuzumi::sim {
@@ -40,7 +40,7 @@ void add_inspect_command(CLI::App& app, int& exit_code) {
   command->footer(
       "Example:\n  usuzumi inspect car.rom --json | jq '.meshes[] | {name, level, faces}'\nExit code 3 where the ROM "
       "is damaged.");
-  command->callback([options, &exit_code] { run_command(exit_code, [&] { return inspect(*options); }); });
+  command->callback([options, &exit_code] { report_errors(exit_code, [&] { return inspect(*options); }); });
 }
 
 }  // namespace usuzumi::sim

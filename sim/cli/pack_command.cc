@@ -18,7 +18,7 @@
 #include "firmware/drawing_data/drawing_data.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
 #include "sim/pack/rom_writer.h"
@@ -163,7 +163,7 @@ void add_pack_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 86400))
       ->capture_default_str();
   command->footer(kFooter);
-  command->callback([options, &exit_code] { run_command(exit_code, [&] { return pack(*options); }); });
+  command->callback([options, &exit_code] { report_errors(exit_code, [&] { return pack(*options); }); });
 }
 
 }  // namespace usuzumi::sim

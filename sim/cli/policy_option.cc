@@ -33,9 +33,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
 /// Meshes of `level` (or of either, kUnset) whose name matches one of the patterns.
 std::vector<std::uint32_t> named_meshes(const std::string& word, std::string_view patterns, const firmware::DrawingData& data) {
   std::vector<std::string> names;
-  std::uint32_t record = data.first_record();
-  for (std::uint32_t n = 0; n < data.mesh_max(); ++n, record = data.next_record(record))
-    names.emplace_back(data.mesh_at(n, record).name);
+  data.for_each_mesh([&](const firmware::MeshView& mesh) { names.emplace_back(mesh.name); });
   std::vector<std::uint32_t> numbers;
   for (const std::string& pattern : split(patterns, ',')) {
     const std::size_t before = numbers.size();

@@ -16,7 +16,7 @@
 #include "sim/common/error.h"
 #include "sim/common/files.h"
 #include "sim/common/progress.h"
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 #include "sim/desk/desk.h"
 #include "sim/desk/run_report.h"
 #include "sim/image/png.h"
@@ -191,7 +191,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it");
   command->add_option("--stats", options->stats, "JSON file: CRC-32, faces, cycles and times of each frame");
   command->footer("Example: usuzumi run car.rom --size 800x480 --frames 60 --orbit --out pictures --stats stats.json");
-  command->callback([options, &exit_code] { run_command(exit_code, [&] { return run(*options); }); });
+  command->callback([options, &exit_code] { report_errors(exit_code, [&] { return run(*options); }); });
 }
 
 }  // namespace usuzumi::sim

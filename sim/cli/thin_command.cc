@@ -17,7 +17,7 @@
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 #include "sim/machine/host_stopwatch.h"
 #include "sim/pack/load_model.h"
 
@@ -83,16 +83,14 @@ JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, boo
   const auto data = firmware::DrawingData::open(rom);
   if (!data.ok()) throw Error(ExitCode::kBadInput, fmt::format("{}: {} {}", path.string(), data.status().message, data.status().where));
   JoinedMesh joined(with_colours);
-  std::uint32_t record = data->first_record();
-  for (std::uint32_t n = 0; n < data->mesh_max(); ++n, record = data->next_record(record)) {
-    const firmware::MeshView mesh = data->mesh_at(n, record);
+  data->for_each_mesh([&](const firmware::MeshView& mesh) {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
       std::uint32_t v[3];
       mesh.face(f, v);
       for (std::uint32_t& i : v) i = joined.vertex(mesh.positions[i], mesh.colours.empty() ? mesh.base_colour : mesh.colours[i]);
       joined.face(v);
     }
-  }
+  });
   return joined;
 }
 
@@ -203,7 +201,7 @@ void add_thin_command(CLI::App& app, int& exit_code) {
   command->footer(
       "The model's meshes are joined and vertices at equal positions welded; the quota is over the whole.\n"
       "Example: usuzumi thin fish.obj -o fish-5.ply --faces 5%");
-  command->callback([options, &exit_code] { run_command(exit_code, [&] { return thin(*options); }); });
+  command->callback([options, &exit_code] { report_errors(exit_code, [&] { return thin(*options); }); });
 }
 
 }  // namespace usuzumi::sim

@@ -33,18 +33,19 @@ Transform to_transform(const aiMatrix4x4& m) {
   return t;
 }
 
-/// Names of the file's. What assimp puts where a file has none looks like "<OFFRoot>".
+/// Names of the file's. What assimp puts where a file has none looks like "<OFFRoot>", or is "defaultobject".
 std::string real_name(const aiString& name) {
   const std::string text = name.C_Str();
-  return text.size() >= 2 && text.front() == '<' && text.back() == '>' ? "" : text;
+  const bool made_up = (text.size() >= 2 && text.front() == '<' && text.back() == '>') || text == "defaultobject";
+  return made_up ? "" : text;
 }
 
 Vec3 to_vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 class AssimpScene {
  public:
-  AssimpScene(const fs::path& path, const aiScene& scene)
-      : file_(path.string()), stem_(path.stem().string()), scene_(scene) {
+  AssimpScene(const fs::path& path, const aiScene& scene, const GltfFile* gltf1)
+      : gltf1_(gltf1), file_(path.string()), stem_(path.stem().string()), scene_(scene) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -62,7 +63,7 @@ class AssimpScene {
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
-      const Transform world = visit.parent * to_transform(visit.node->mTransformation);
+      const Transform world = visit.parent * local_transform(*visit.node);
       if (!world.finite())
         refuse(fmt::format("node '{}' has a transform that is not finite", visit.node->mName.C_Str()));
       for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) add_mesh(visit.node->mMeshes[i], *visit.node, world);
@@ -73,6 +74,14 @@ class AssimpScene {
   }
 
  private:
+  Transform local_transform(const aiNode& node) const {
+    if (gltf1_ != nullptr) {
+      const auto label = gltf1_->gltf1_nodes.find(node.mName.C_Str());
+      if (label != gltf1_->gltf1_nodes.end() && label->second.local) return *label->second.local;
+    }
+    return to_transform(node.mTransformation);
+  }
+
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(ExitCode::kBadInput, fmt::format("{}: {}; export it again, best as .glb", file_, why));
   }
@@ -148,6 +157,7 @@ class AssimpScene {
     if (scene_.mNumAnimations > 0) note(fmt::format("{} animations are left out", scene_.mNumAnimations));
   }
 
+  const GltfFile* gltf1_;
   std::string file_, stem_;
   const aiScene& scene_;
   bool facet_normals_only_ = false;
@@ -157,7 +167,7 @@ class AssimpScene {
 
 }  // namespace
 
-Model import_assimp(const fs::path& path) {
+Model import_assimp(const fs::path& path, const GltfFile* gltf1) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES,
                            true);  // names as people gave them, not identifiers
@@ -169,7 +179,7 @@ Model import_assimp(const fs::path& path) {
     throw Error(ExitCode::kBadInput,
                 fmt::format("{}: cannot be read: {}; export it again, best as .glb", path.string(), one_line(why)));
   }
-  return AssimpScene(path, *scene).import();
+  return AssimpScene(path, *scene, gltf1).import();
 }
 
 }  // namespace usuzumi::sim

@@ -140,7 +140,31 @@ void find_buffer_files(const fs::path& path, const json& root, GltfFile& gltf) {
   }
 }
 
-/// Names and thinning properties of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by identifier there.
+/// The numbers of `object[key]` into `out`; false where there are not just as many numbers.
+template <std::size_t kCount>
+bool read_numbers(const json& object, const char* key, double (&out)[kCount]) {
+  const auto found = object.find(key);
+  if (found == object.end()) return true;  // the default stays
+  if (!found->is_array() || found->size() != kCount) return false;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (!(*found)[i].is_number()) return false;
+    out[i] = (*found)[i].get<double>();
+  }
+  return true;
+}
+
+/// Of a glTF 1.0 node without a matrix. assimp 5.2 multiplies these parts in the wrong order: a wheel that is turned and
+/// moved would be moved along its turned axes.
+std::optional<Transform> local_transform(const json& node) {
+  if (node.contains("matrix")) return std::nullopt;
+  double translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
+  if (!read_numbers(node, "translation", translation) || !read_numbers(node, "rotation", rotation) ||
+      !read_numbers(node, "scale", scale))
+    return std::nullopt;
+  return from_parts(translation, rotation, scale);
+}
+
+/// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by identifier there.
 std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind,
                                               std::vector<std::string>& notes) {
   std::map<std::string, Gltf1Label> labels;
@@ -150,6 +174,7 @@ std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& 
     if (!object.is_object()) continue;
     Gltf1Label& label = labels[id];
     if (object.contains("name") && object["name"].is_string()) label.name = object["name"].get<std::string>();
+    label.local = local_transform(object);
     if (!object.contains("extras") || !object["extras"].is_object()) continue;
     std::vector<std::pair<std::string, TagValue>> extras;
     for (const auto& [key, value] : object["extras"].items()) extras.emplace_back(key, tag_value_of(value));

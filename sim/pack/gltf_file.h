@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/pack/model.h"
+#include "sim/pack/transform.h"
 
 namespace usuzumi::sim {
 
@@ -16,6 +18,7 @@ namespace usuzumi::sim {
 struct Gltf1Label {
   std::string name;  // empty where the file has none
   Tags tags;
+  std::optional<Transform> local;  // a node's, where it is given as translation, rotation and scale
 };
 
 struct GltfFile {

@@ -58,7 +58,7 @@ Model import_by_extension(const fs::path& path) {
   if (extension != ".gltf" && extension != ".glb") return import_assimp(path);
   const GltfFile file = open_gltf(path);
   if (file.version_major == 2) return import_gltf(path, file);
-  Model model = import_assimp(path);
+  Model model = import_assimp(path, &file);
   label_gltf1(file, model);
   return model;
 }

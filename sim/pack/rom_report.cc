@@ -100,12 +100,11 @@ struct Totals {
 
 Totals totals_of(const DrawingData& data) {
   Totals t;
-  for (std::uint32_t n = 0; n < data.mesh_max(); ++n) {
-    const MeshView mesh = data.mesh(n);
+  data.for_each_mesh([&](const MeshView& mesh) {
     t.vertices += mesh.positions.size();
     t.faces += mesh.face_count();
     t.name_width = std::max(t.name_width, std::min<std::size_t>(mesh.name.size(), 32));
-  }
+  });
   return t;
 }
 
@@ -128,7 +127,7 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
   j["vertices"] = totals.vertices;
   j["faces"] = totals.faces;
   j["meshes"] = json::array();
-  for (std::uint32_t n = 0; n < data.mesh_max(); ++n) j["meshes"].push_back(mesh_json(data.mesh(n)));
+  data.for_each_mesh([&](const MeshView& mesh) { j["meshes"].push_back(mesh_json(mesh)); });
   return j.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -140,7 +139,7 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
   out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name",
                      totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags", "colour",
                      "bounding box");
-  for (std::uint32_t n = 0; n < data.mesh_max(); ++n) out += mesh_line(data.mesh(n), totals.name_width);
+  data.for_each_mesh([&](const MeshView& mesh) { out += mesh_line(mesh, totals.name_width); });
   out += "flags: n normals, c vertex colours, 2 two-sided, t telltale\n";
   return out;
 }

@@ -7,6 +7,6 @@ namespace usuzumi::sim {
 
 /// Runs `body` and sets `exit_code` to what it returns, or to an Error's code after printing "usuzumi: " and its line.
 /// Exhausted memory and unforeseen exceptions are reported in the same way (kDevice).
-void run_command(int& exit_code, const std::function<int()>& body);
+void report_errors(int& exit_code, const std::function<int()>& body);
 
 }  // namespace usuzumi::sim

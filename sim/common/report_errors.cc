@@ -1,4 +1,4 @@
-#include "sim/common/run_command.h"
+#include "sim/common/report_errors.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 namespace usuzumi::sim {
 
-void run_command(int& exit_code, const std::function<int()>& body) {
+void report_errors(int& exit_code, const std::function<int()>& body) {
   auto report = [&](ExitCode code, const char* line) {
     std::fflush(stdout);
     fmt::print(stderr, "usuzumi: {}\n", line);
