@@ -7,7 +7,10 @@
 namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
 namespace {
 
-[[gnu::always_inline]] inline I32 round_lanes(F32 v) { return bits_as<I32>(v + kRoundingBias) - kRoundingBits; }
+/// Meaningless, but defined, beyond the guard band: such vertices carry an outcode and are clipped.
+[[gnu::always_inline]] inline I32 round_lanes(F32 v) {
+  return bits_as<I32>(bits_as<U32>(v + kRoundingBias) - static_cast<std::uint32_t>(kRoundingBits));
+}
 
 /// v, or the limit; the limit as well where v is not a number.
 [[gnu::always_inline]] inline F32 at_most(F32 v, float limit) { return v < limit ? v : splat_f(limit); }

@@ -106,7 +106,8 @@ struct SetRasterState {
   std::uint32_t depth_test = 0;   // 0 or 1; without it depth is neither compared nor written
   std::uint32_t depth_write = 1;  // 0 or 1
   float point_size = 1;           // pixels, 1..64: an axis-aligned square around the vertex
-  float line_width = 1;           // pixels, 1..64: a parallelogram, widened along the minor axis
+  float line_width = 1;           // pixels, 1..64: a parallelogram, widened along the minor axis; of the pixels at its ends
+                                  // those are drawn whose centre lies within it (OpenGL's diamond-exit rule is not applied)
 };
 
 /// Where vertex data lies. Strides are multiples of 4. A zero address means the stream is absent (positions must be there).
@@ -132,6 +133,8 @@ struct Clear {
   float depth = 1;               // [0, 1]
 };
 
+/// Everything is cut off at the edges of the viewport, points and wide lines too.
+///
 /// Draws `count` vertices (kNone: first .. first + count - 1 of the streams) or indices (`index_address` + first...).
 /// Triangles of a strip alternate their winding, the first as given. Indices >= vertex_count are an error.
 struct Draw {
