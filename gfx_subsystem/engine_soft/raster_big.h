@@ -12,7 +12,6 @@ struct TileTriangle {
   std::int32_t edge[3], a[3], b[3];   // |a|, |b| < 2^23 and the edge crosses the tile, so every e in it is below 2^31
   int edges;                          // that cross; the tile lies inside of the others
   std::int32_t x0, y0, x1, y1;        // bounding box within the tile, inclusive
-  bool box_cuts_blocks;               // the box does not end at block borders
   Planes planes;
   PerspectivePlanes perspective{};
 };
@@ -60,40 +59,68 @@ inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle&
   }
 }
 
+/// For a row of blocks, one bit per block: wholly outside of an edge, and not wholly inside of all.
+struct RowOfBlocks {
+  std::uint32_t outside = 0, crossed = 0;
+};
+
+[[gnu::always_inline]] inline RowOfBlocks classify_row(const TileTriangle& t, std::int32_t row) {
+  static_assert(kBlocksPerRow % kLanes == 0);
+  RowOfBlocks blocks;
+  I32 lane{};
+  for (int l = 0; l < kLanes; ++l) lane[l] = l * kBlockSize;
+  constexpr std::int32_t kSpan = kBlockSize - 1;
+  for (std::int32_t first = 0; first < kBlocksPerRow; first += kLanes) {
+    I32 outside{}, crossed{};
+    for (int i = 0; i < t.edges; ++i) {
+      const std::int32_t a = t.a[i], b = t.b[i];
+      const I32 e = lane * a + (t.edge[i] + a * (first * kBlockSize) + b * (row * kBlockSize));
+      outside |= e + (std::max(a, 0) + std::max(b, 0)) * kSpan;
+      crossed |= e + (std::min(a, 0) + std::min(b, 0)) * kSpan;
+    }
+    blocks.outside |= sign_bits(outside) << first;
+    blocks.crossed |= sign_bits(crossed) << first;
+  }
+  return blocks;
+}
+
+/// Bits first .. last.
+constexpr std::uint32_t bit_range(std::int32_t first, std::int32_t last) { return (2u << last) - (1u << first); }
+
 template <Shading kShading, bool kDepth, bool kRgb565>
 std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const TileBuffers& tile) {
   const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, &t.perspective);
   const LanePattern lanes = lane_pattern();
   const I16 box = bits_as<I16>(splat_u(pair(t.x1 - t.x0, t.y1 - t.y0)));
+  // Columns of blocks that the box touches, and those it holds from side to side.
+  const std::uint32_t touched = bit_range(t.x0 / kBlockSize, t.x1 / kBlockSize);
+  const std::uint32_t held = touched & ~((t.x0 % kBlockSize != 0 ? 1u << (t.x0 / kBlockSize) : 0u) | (t.x1 % kBlockSize != kBlockSize - 1 ? 1u << (t.x1 / kBlockSize) : 0u));
   std::uint32_t covered = 0;
   for (std::int32_t row = t.y0 / kBlockSize; row <= t.y1 / kBlockSize; ++row) {
-    for (std::int32_t column = t.x0 / kBlockSize; column <= t.x1 / kBlockSize; ++column) {
-      const std::int32_t x = column * kBlockSize, y = row * kBlockSize;
-      bool crossed = false, out = false;
-      for (int i = 0; i < t.edges; ++i) {
-        const std::int32_t e = t.edge[i] + t.a[i] * x + t.b[i] * y, span = kBlockSize - 1;
-        out |= e + std::max(t.a[i], 0) * span + std::max(t.b[i], 0) * span < 0;
-        crossed |= e + std::min(t.a[i], 0) * span + std::min(t.b[i], 0) * span < 0;
-      }
-      if (out) continue;
-      const bool box_cuts = t.box_cuts_blocks && (x < t.x0 || y < t.y0 || x + kBlockSize - 1 > t.x1 || y + kBlockSize - 1 > t.y1);
-      const std::size_t at = block_offset(column, row);
+    const std::int32_t y = row * kBlockSize;
+    const RowOfBlocks blocks = t.edges != 0 ? classify_row(t, row) : RowOfBlocks{};
+    const std::uint32_t visit = touched & ~blocks.outside;
+    const bool row_held = y >= t.y0 && y + kBlockSize - 1 <= t.y1;
+    const std::uint32_t whole = row_held ? visit & held & ~blocks.crossed : 0;
+    for (std::uint32_t left = whole; left != 0; left &= left - 1) {
+      const int column = std::countr_zero(left);
+      for (std::int32_t part = 0; part < kParts; ++part)
+        shader.template part<true>(I32{}, column * kBlockSize, y + part * kPartRows, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+    }
+    covered += static_cast<std::uint32_t>(std::popcount(whole) * kBlockPixels);
+    for (std::uint32_t left = visit & ~whole; left != 0; left &= left - 1) {
+      const int column = std::countr_zero(left);
+      const std::int32_t x = column * kBlockSize;
       for (std::int32_t part = 0; part < kParts; ++part) {
         const std::int32_t py = y + part * kPartRows;
-        I32 mask = splat(-1);
-        if (crossed) {
-          I32 outside{};
-          for (int i = 0; i < t.edges; ++i) outside |= (lanes.x + x) * t.a[i] + (lanes.y + py) * t.b[i] + t.edge[i];
-          mask = ~(outside >> 31);
-        }
-        if (box_cuts) {
-          const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(x - t.x0, py - t.y0)));
-          mask &= bits_as<I32>((xy >= 0) & (xy <= box)) == -1;
-        }
+        I32 outside{};
+        for (int i = 0; i < t.edges; ++i) outside |= lanes.x * t.a[i] + lanes.y * t.b[i] + (t.edge[i] + t.a[i] * x + t.b[i] * py);
+        const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(x - t.x0, py - t.y0)));
+        const I32 mask = ~(outside >> 31) & (bits_as<I32>((xy >= 0) & (xy <= box)) == -1);
         const std::uint32_t bits = sign_bits(mask);
         if (bits == 0) continue;
         covered += static_cast<std::uint32_t>(std::popcount(bits));
-        shader.part(mask, x, py, tile, at + static_cast<std::size_t>(part * kLanes));
+        shader.template part<false>(mask, x, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
       }
     }
   }
@@ -108,7 +135,6 @@ std::uint32_t raster_big(const DrawSetup& d, const BigTriangle& t, TileOrigin or
   local.y0 = std::max(t.y - origin.y, 0);
   local.x1 = std::min(t.last_x - origin.x, kTileSize - 1);
   local.y1 = std::min(t.last_y - origin.y, kTileSize - 1);
-  local.box_cuts_blocks = ((local.x0 | local.y0 | (local.x1 + 1) | (local.y1 + 1)) & (kBlockSize - 1)) != 0;
   if (!cross_edges(t, origin, local)) return 0;
   derive_planes(t, origin, local);
   const auto raster = [&](auto depth) {

@@ -47,7 +47,7 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
         const std::uint32_t bits = sign_bits(mask);
         if (bits == 0) continue;
         covered += static_cast<std::uint32_t>(std::popcount(bits));
-        shader.part(mask, px, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+        shader.template part<false>(mask, px, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
       }
     }
   }

@@ -36,35 +36,48 @@ struct TileBuffers {
   std::uint32_t* depth;
 };
 
+/// Planes are split in two: what depends on the lane is added up once per triangle, what depends on the part is one scalar.
+/// The sums are modulo their width, so the split does not change them.
 template <Shading kShading, bool kDepth, bool kRgb565>
 class Shader {
  public:
   [[gnu::always_inline]] Shader(const DrawSetup& d, const Planes& planes, const PerspectivePlanes* perspective)
-      : d_(d), p_(planes), perspective_(perspective) {}
+      : d_(d), p_(planes), perspective_(perspective) {
+    const LanePattern lanes = lane_pattern();
+    if constexpr (kDepth) depth_ = p_.depth + bits_as<U32>(lanes.x) * p_.depth_dx + bits_as<U32>(lanes.y) * p_.depth_dy;
+    if constexpr (kShading == Shading::kAffine) {
+      const auto plane = [&](std::uint32_t base, std::uint32_t dx, std::uint32_t dy) {
+        return bits_as<U16>(splat_u(base)) + bits_as<U16>(splat_u(dx)) * lanes.x_twice + bits_as<U16>(splat_u(dy)) * lanes.y_twice;
+      };
+      high_ = plane(p_.high, p_.high_dx, p_.high_dy);
+      low_ = plane(p_.low, p_.low_dx, p_.low_dy);
+    }
+  }
 
-  /// Writes the lanes of `mask`. (x, y) is the part's first pixel, counted from the planes' origin; `at` its place in the tile.
+  /// Writes the lanes of `mask`, or all. (x, y) is the part's first pixel, counted from the planes' origin; `at` its place in
+  /// the tile.
+  template <bool kAll>
   [[gnu::always_inline]] void part(I32 mask, std::int32_t x, std::int32_t y, const TileBuffers& tile, std::size_t at) const {
+    const auto ux = static_cast<std::uint32_t>(x), uy = static_cast<std::uint32_t>(y);
     if constexpr (kDepth) {
-      const LanePattern lanes = lane_pattern();
-      const U32 depth = (splat_u(p_.depth) + bits_as<U32>(lanes.x + x) * p_.depth_dx + bits_as<U32>(lanes.y + y) * p_.depth_dy) >> 8;
+      const U32 depth = (depth_ + (ux * p_.depth_dx + uy * p_.depth_dy)) >> 8;
       const U32 stored = load<U32>(tile.depth + at);
-      mask &= bits_as<I32>(depth) < bits_as<I32>(stored) + d_.depth_bias;
+      const I32 passes = bits_as<I32>(depth) < bits_as<I32>(stored) + d_.depth_bias;
+      mask = kAll ? passes : mask & passes;
       store(tile.depth + at, select(mask & d_.depth_write, depth, stored));
     }
-    const U32 old = load<U32>(tile.colour + at);
-    store(tile.colour + at, select(mask, colour(x, y), old));
+    if constexpr (kAll && !kDepth) store(tile.colour + at, colour(x, y));
+    else store(tile.colour + at, select(mask, colour(x, y), load<U32>(tile.colour + at)));
   }
 
  private:
   [[gnu::always_inline]] U32 colour(std::int32_t x, std::int32_t y) const {
     if constexpr (kShading == Shading::kConstant) return splat_u(p_.high);
     if constexpr (kShading == Shading::kAffine) {
-      const LanePattern lanes = lane_pattern();
-      const U16 xs = lanes.x_twice + static_cast<std::uint16_t>(x), ys = lanes.y_twice + static_cast<std::uint16_t>(y);
-      const auto plane = [&](std::uint32_t base, std::uint32_t dx, std::uint32_t dy) {
-        return bits_as<U32>(bits_as<U16>(splat_u(base)) + bits_as<U16>(splat_u(dx)) * xs + bits_as<U16>(splat_u(dy)) * ys);
-      };
-      return pack(plane(p_.high, p_.high_dx, p_.high_dy), plane(p_.low, p_.low_dx, p_.low_dy));
+      const auto ux = static_cast<std::uint32_t>(x), uy = static_cast<std::uint32_t>(y);
+      const std::uint32_t high = ux * p_.high_dx + uy * p_.high_dy;  // its upper lane is not used
+      const std::uint32_t low = ((ux * (p_.low_dx & 0xFFFF) + uy * (p_.low_dy & 0xFFFF)) & 0xFFFF) | (ux * (p_.low_dx >> 16) + uy * (p_.low_dy >> 16)) << 16;
+      return pack(bits_as<U32>(high_ + bits_as<U16>(splat_u(high))), bits_as<U32>(low_ + bits_as<U16>(splat_u(low))));
     }
     return perspective_colour(x, y);
   }
@@ -92,6 +105,8 @@ class Shader {
   const DrawSetup& d_;
   const Planes& p_;
   const PerspectivePlanes* perspective_;
+  U32 depth_{};
+  U16 high_{}, low_{};
 };
 
 }  // namespace
