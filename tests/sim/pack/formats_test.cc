@@ -43,7 +43,7 @@ TEST(ObjImport, ClosedSurfaceShowsItsOutsideOnly) {
   const Model model =
       load_model(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
   EXPECT_FALSE(model.meshes[0].two_sided);
-  EXPECT_EQ(model.meshes[0].name, "defaultobject");  // what assimp calls an object without a name
+  EXPECT_EQ(model.meshes[0].name, "a") << "an object without a name is called as its file";
 }
 
 TEST(ObjImport, DropsPointsLinesAndFacesWithoutAreaWithAWord) {
