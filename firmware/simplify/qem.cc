@@ -1,9 +1,9 @@
 // Quadric error edge collapse: Garland & Heckbert 1997, section 4; patent JP2015-22462A steps S801-S808.
 //
 // Where we depart from the paper: quadrics are relative to their vertices (quadric.h); pairs are edges only; an edge's
-// cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. With
-// optimal placement a cost only rises as quadrics are summed, so that is the same order; with midpoint placement an edge
-// whose cost has fallen is taken later than it might be.
+// cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. Costs mostly
+// rise as quadrics are summed, and then that is the same order; an edge whose cost has fallen (by midpoint placement, by
+// the pull towards the edge's middle or where the minimum could not be used) is taken later than it might be.
 #include <cmath>
 
 #include "firmware/simplify/attributes.h"
