@@ -147,7 +147,7 @@ class DrawRun {
 
   /// Sets up the candidates. All primitives before `done` are then dealt with; when the pool is exhausted, those before the
   /// candidate that found it so.
-  [[gnu::always_inline]] bool flush(std::uint32_t done) {
+  [[gnu::noinline]] bool flush(std::uint32_t done) {
     for (std::uint32_t k = 0; k < candidates_; ++k) {
       if (setup_.put(candidate_[k], candidate_[k].provoking())) [[likely]] continue;
       job_.faces_drawn += candidate_[k].drawn_before;
@@ -207,7 +207,7 @@ class DrawRun {
   }
 
   /// A flat piece takes the primitive's provoking vertex, whose place among the corners clipping may have lost.
-  bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, std::uint32_t& drawn) {
+  [[gnu::noinline]] bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, std::uint32_t& drawn) {
     Candidate candidate;
     if (setup_.examine(a, b, c, may_cull, candidate, drawn) && number >= job_.next.piece && !setup_.put(candidate, provoking)) return false;
     job_.next.piece = std::max(job_.next.piece, number + 1);
