@@ -16,6 +16,10 @@ struct RoundTarget {
   std::byte* depth = nullptr;  // nullptr: none
   std::uint32_t depth_stride = 0;
   bool depth16 = false;
+  /// Pixels of 4 bytes are stored past the caches. A finished tile is not needed again, and fetching its lines only to
+  /// overwrite them would take longer than drawing it. Only where the planes' rows begin and end at cache lines: half a
+  /// line streamed costs more than a line fetched.
+  bool streaming = false;
   friend bool operator==(const RoundTarget&, const RoundTarget&) = default;
 };
 
@@ -69,6 +73,10 @@ struct Round {
   SlotPool* pool = nullptr;
   bool uses_depth = false;  // any item reads or writes depth
 };
+
+/// Targets of fewer bytes are not streamed: they may stay in a nearer cache until the display reads them. Arbitrary; no
+/// byte depends on it.
+inline constexpr std::size_t kStreamingBytes = 1u << 20;
 
 inline constexpr std::uint32_t kMaxDraws = 256;       // fits the 15 bits of SmallTriangle::draw
 inline constexpr std::uint32_t kMaxVertexPerPrimitive = 3;

@@ -100,6 +100,9 @@ Status SoftEngine::bind_target(const EngineState& s) {
   t.depth = s.depth_memory.data();
   t.depth_stride = s.depth_target.stride_bytes;
   t.depth16 = s.depth_target.format == command::DepthFormat::kUnorm16;
+  const auto lines = [](const std::byte* plane, std::uint32_t stride) { return (reinterpret_cast<std::uintptr_t>(plane) | stride) % kCacheLine == 0; };
+  t.streaming = s.colour_memory.size() + s.depth_memory.size() >= kStreamingBytes && !t.rgb565 && t.width % 16 == 0 && lines(t.colour, t.colour_stride) &&
+                lines(t.depth, t.depth_stride);
   if (t == round_.target) return ok_status();
   finish_round();
   round_ = {};

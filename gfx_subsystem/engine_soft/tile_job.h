@@ -103,13 +103,17 @@ void run_tile(const Round& r, Worker& worker, std::uint32_t tile, std::uint32_t 
   const TileExtent extent = tile_extent(r, tile);
   const TilePrologue prologue = look_ahead(r, extent, tile, jobs);
   if (!prologue.any) return;
-  if (prologue.only_clears) return clear_in_place(r, extent, tile, jobs);
+  if (prologue.only_clears) {
+    clear_in_place(r, extent, tile, jobs);
+    return finish_streaming();
+  }
   const TileBuffers buffers{worker.colour, worker.depth};
   if (!prologue.colour_filled) load_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth && !prologue.depth_filled) load_plane(depth_plane(r), extent, buffers.depth);
   worker.pixels_tested += r.target.rgb565 ? raster_entries<true>(r, extent, buffers, tile, jobs) : raster_entries<false>(r, extent, buffers, tile, jobs);
   store_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth) store_plane(depth_plane(r), extent, buffers.depth);
+  finish_streaming();
 }
 
 /// A band of tile rows of a round that only clears: whole rows at a time, which memory likes better than tiles.
@@ -121,6 +125,7 @@ void run_clears(const Round& r, std::uint32_t band) {
     if (c.colour) fill_plane(colour_plane(r), rect, c.pixel);
     if (c.depth) fill_plane(depth_plane(r), rect, c.depth_value);
   }
+  finish_streaming();
 }
 
 }  // namespace

@@ -29,13 +29,32 @@ struct Plane {
   std::size_t stride;
   bool narrow;         // 2 bytes
   std::uint32_t mask;  // bits of a word that count
+  bool streaming;      // stores go past the caches; see RoundTarget::streaming
   std::size_t pixel_bytes() const { return narrow ? 2 : 4; }
   std::byte* at(const TileOrigin& o, std::int32_t row) const {
     return memory + stride * static_cast<std::size_t>(o.y + row) + pixel_bytes() * static_cast<std::size_t>(o.x);
   }
 };
-inline Plane colour_plane(const Round& r) { return {r.target.colour, r.target.colour_stride, r.target.rgb565, ~0u}; }
-inline Plane depth_plane(const Round& r) { return {r.target.depth, r.target.depth_stride, r.target.depth16, 0xFFFFFFu}; }
+inline Plane colour_plane(const Round& r) { return {r.target.colour, r.target.colour_stride, r.target.rgb565, ~0u, r.target.streaming}; }
+inline Plane depth_plane(const Round& r) {
+  return {r.target.depth, r.target.depth_stride, r.target.depth16, 0xFFFFFFu, r.target.streaming && !r.target.depth16};
+}
+
+/// Stores four words; `streaming` needs an address that is a multiple of 16.
+[[gnu::always_inline]] inline void store_four(std::byte* p, Four v, bool streaming) {
+#if defined(__x86_64__)
+  if (streaming) return _mm_stream_si128(reinterpret_cast<__m128i*>(p), bits_as<__m128i>(v));
+#endif
+  static_cast<void>(streaming);
+  store(p, v);
+}
+
+/// Streamed stores are in memory before anything that this thread stores later.
+inline void finish_streaming() {
+#if defined(__x86_64__)
+  _mm_sfence();
+#endif
+}
 
 /// First of the four words that hold pixels 4 * column .. of a row.
 inline std::uint32_t* block_row(std::uint32_t* buffer, std::int32_t row, std::int32_t column) {
@@ -65,7 +84,7 @@ inline void store_plane(const Plane& plane, const TileExtent& tile, std::uint32_
     for (std::int32_t c = 0; c < whole; ++c) {
       std::byte* p = to + plane.pixel_bytes() * kBlockSize * static_cast<std::size_t>(c);
       const Four v = load<Four>(block_row(buffer, y, c));
-      if (plane.narrow) store(p, __builtin_convertvector(v, FourHalves)); else store(p, v);
+      if (plane.narrow) store(p, __builtin_convertvector(v, FourHalves)); else store_four(p, v, plane.streaming);
     }
     for (std::int32_t x = whole * kBlockSize; x < tile.width; ++x) {
       std::byte* p = to + plane.pixel_bytes() * static_cast<std::size_t>(x);
@@ -79,11 +98,15 @@ inline void store_plane(const Plane& plane, const TileExtent& tile, std::uint32_
 inline void fill_plane(const Plane& plane, const PixelRect& rect, std::uint32_t value) {
   const auto pixels = static_cast<std::size_t>(rect.x1 - rect.x0);
   const U32 wide = splat_u(plane.narrow ? value | value << 16 : value);
+  const Four four = Four{} + (plane.narrow ? value | value << 16 : value);
   for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
     std::byte* p = plane.at({rect.x0, y}, 0);
     std::size_t left = pixels * plane.pixel_bytes();
+    if (plane.streaming && reinterpret_cast<std::uintptr_t>(p) % sizeof four == 0)
+      for (; left >= sizeof four; left -= sizeof four, p += sizeof four) store_four(p, four, true);
     for (; left >= sizeof wide; left -= sizeof wide, p += sizeof wide) store(p, wide);
-    std::memcpy(p, &wide, left);
+    for (; left >= sizeof four; left -= sizeof four, p += sizeof four) store(p, four);
+    std::memcpy(p, &four, left);
   }
 }
 

@@ -8,7 +8,7 @@ namespace usuzumi::bench {
 using namespace command;
 
 std::span<const std::byte> SoftSubject::Memory::do_read_window(BusAddress address, std::size_t size) const {
-  const std::vector<std::byte>& m = address >= kVram ? vram : ram;
+  const std::span<const std::byte> m = address >= kVram ? std::span<const std::byte>(vram) : ram;
   const std::size_t at = address - (address >= kVram ? kVram : kRam);
   return at > m.size() || size > m.size() - at ? std::span<const std::byte>{} : std::span<const std::byte>(m.data() + at, size);
 }
@@ -27,7 +27,9 @@ SoftSubject::SoftSubject(const BenchScene& scene, gfx::ParallelRunner* runner, c
     return static_cast<BusAddress>(kRam + at);
   };
   const std::uint32_t plane = scene.width * scene.height * 4;
-  memory_.vram.resize(std::size_t{2} * plane);
+  constexpr std::size_t kLine = 64;
+  vram_.resize(std::size_t{2} * plane + kLine);
+  memory_.vram = std::span(vram_).subspan((kLine - reinterpret_cast<std::uintptr_t>(vram_.data()) % kLine) % kLine, std::size_t{2} * plane);
   Writer list(words_);
   list.put(SetColourTarget{kVram, scene.width * 4, scene.width, scene.height, PixelFormat::kXrgb8888});
   list.put(SetDepthTarget{kVram + plane, scene.width * 4, DepthFormat::kUnorm24});

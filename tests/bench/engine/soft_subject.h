@@ -20,11 +20,13 @@ class SoftSubject {
  private:
   static constexpr BusAddress kRam = 0x1000, kVram = 0x40000000;
   struct Memory final : BusMemory {
-    std::vector<std::byte> ram, vram;
+    std::vector<std::byte> ram;
+    std::span<std::byte> vram;  // begins at a cache line, as a device's would
     std::span<const std::byte> do_read_window(BusAddress address, std::size_t size) const override;
     std::span<std::byte> do_write_window(BusAddress address, std::size_t size) override;
   };
 
+  std::vector<std::byte> vram_;
   Memory memory_;
   std::vector<std::byte> work_;
   gfx::SoftEngine engine_;
