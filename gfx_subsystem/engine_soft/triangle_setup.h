@@ -208,8 +208,8 @@ class TriangleSetup {
   /// True when the triangle covers none of the pixels of a box of up to 2 x 2: about every third of the tiniest ones.
   [[gnu::always_inline]] static bool misses_small_box(const PixelRect& box, I32x4 edge, I32x4 a, I32x4 b) {
     if (box.x1 - box.x0 > 2 || box.y1 - box.y0 > 2) return false;
-    const auto signs = [](I32x4 e) { return e[0] | e[1] | e[2]; };  // negative: outside some edge
-    return (signs(edge) & signs(edge + a) & signs(edge + b) & signs(edge + a + b)) < 0;
+    const auto outside = [](I32x4 e) { return e[0] | e[1] | e[2]; };  // negative when the pixel is
+    return (outside(edge) & outside(edge + a) & outside(edge + b) & outside(edge + a + b)) < 0;
   }
 
   [[gnu::always_inline]] static I32x4 low_words(U64x4 v) { return __builtin_convertvector(v, I32x4); }

@@ -49,6 +49,17 @@ TEST(TopLeftFillRule, HorizontalBorderBelongsToTheTriangleBelow) {
   EXPECT_EQ(below.picture(), "....\n####\n####\n....\n");
 }
 
+TEST(TopLeftFillRule, HoldsForBigTrianglesAsForSmallOnes) {
+  for (const float size : {2.0f, 62.0f, 63.0f, 64.0f, 100.0f, 300.0f}) {
+    const float a = 0.5f, b = size + 0.5f;
+    Bench bench(320, 320);
+    bench.streams({{a, a, 0}, {b, a, 0}, {b, b, 0}, {a, b, 0}}, {}, kWhite).draw(Topology::kTriangleFan, 4);
+    EXPECT_EQ(bench.run().counters.pixels_tested, static_cast<std::uint64_t>(size * size)) << size;
+    EXPECT_NE(bench.pixel(0, 0), 0u) << size;
+    EXPECT_EQ(bench.pixel(static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size)), 0u) << size;
+  }
+}
+
 TEST(TopLeftFillRule, WindingDoesNotMatter) {
   Bench a(8, 8), b(8, 8);
   a.streams({{0.7f, 1, 0}, {7.1f, 2.2f, 0}, {3, 7.6f, 0}}, {}, kWhite).draw(Topology::kTriangles, 3);
