@@ -11,6 +11,10 @@ using namespace command;
 constexpr std::uint32_t kMaxTargetSize = 4096;
 constexpr float kMaxPrimitiveSize = 64;
 
+/// Indices of either size that a compiler keeps in a vector register where the processor has one.
+using Indices16 = std::uint16_t __attribute__((vector_size(16)));
+using Indices32 = std::uint32_t __attribute__((vector_size(16)));
+
 bool in_unit(float v) { return v >= 0 && v <= 1; }  // false for NaN
 bool finite_non_negative(Vec3 v) { return is_finite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0; }
 
@@ -226,20 +230,42 @@ class Decoder {
     auto all = memory_.read_window(d.index_address, static_cast<std::size_t>(end));
     if (all.data() == nullptr) return refuse("draw: indices are not all in memory");
     call.indices = all.subspan(std::size_t{d.first} * size);
-    if (size == 2) scan<std::uint16_t>(call); else scan<std::uint32_t>(call);
+    if (size == 2) scan<std::uint16_t, Indices16>(call); else scan<std::uint32_t, Indices32>(call);
     if (call.max_vertex >= state_.streams.vertex_count) return refuse("draw: index beyond the streams' end");
     return ok_status();
   }
 
-  template <class T>
+  /// Least and greatest index, sixteen bytes at a time: this looks at every index of a draw before any thread may start.
+  template <class T, class Lanes>
   static void scan(DrawCall& call) {
-    T low = static_cast<T>(-1), high = 0;
+    constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(T);
+    constexpr std::size_t kAtOnce = 4;  // chains of comparisons that do not wait for each other
     const std::byte* p = call.indices.data();
-    for (std::uint32_t i = 0; i < call.draw.count; ++i) {
+    const std::size_t count = call.draw.count, in_lanes = count / (kLanes * kAtOnce) * (kLanes * kAtOnce);
+    Lanes lows[kAtOnce], highs[kAtOnce];
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+      highs[k] = Lanes{};
+      lows[k] = ~highs[k];
+    }
+    for (std::size_t i = 0; i < in_lanes; i += kLanes * kAtOnce) {
+      for (std::size_t k = 0; k < kAtOnce; ++k) {
+        Lanes v;
+        std::memcpy(&v, p + (i + k * kLanes) * sizeof(T), sizeof v);
+        lows[k] = v < lows[k] ? v : lows[k];
+        highs[k] = v > highs[k] ? v : highs[k];
+      }
+    }
+    T low = static_cast<T>(-1), high = 0;
+    const auto take = [&](T least, T most) {
+      low = least < low ? least : low;
+      high = most > high ? most : high;
+    };
+    for (std::size_t k = 0; k < kAtOnce; ++k)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) take(lows[k][lane], highs[k][lane]);
+    for (std::size_t i = in_lanes; i < count; ++i) {
       T v;
-      std::memcpy(&v, p + std::size_t{i} * sizeof(T), sizeof(T));
-      low = v < low ? v : low;
-      high = v > high ? v : high;
+      std::memcpy(&v, p + i * sizeof(T), sizeof(T));
+      take(v, v);
     }
     call.min_vertex = low;
     call.max_vertex = high;

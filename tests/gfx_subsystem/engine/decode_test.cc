@@ -2,6 +2,7 @@
 // the wire format is the point, and by command::Writer where the values are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -369,6 +370,38 @@ TEST_F(DecodeTest, BadIndicesAreRefused) {
   expect_draw_refused({Topology::kTriangles, IndexFormat::kU32, kIndices, 0xFFFFFFFFu, 2}, "sum overflows to 1");
   expect_draw_refused({static_cast<Topology>(5), IndexFormat::kNone, 0, 0, 3}, "topology");
   expect_draw_refused({Topology::kTriangles, static_cast<IndexFormat>(3), 0, 0, 3}, "index format");
+}
+
+// Indices are ranged several at a time; wherever the least, the greatest or a bad one lies, it is found.
+TEST_F(DecodeTest, TheRangeOfIndicesSeesEveryPlaceOfEveryLength) {
+  const auto put = [&](IndexFormat format, std::uint32_t place, std::uint32_t index) {
+    if (format == IndexFormat::kU16) memory.store<std::uint16_t>(kIndices + 2 * place, {static_cast<std::uint16_t>(index)});
+    else memory.store<std::uint32_t>(kIndices + 4 * place, {index});
+  };
+  for (const IndexFormat format : {IndexFormat::kU16, IndexFormat::kU32}) {
+    const std::uint32_t most = format == IndexFormat::kU16 ? 64 : 32;  // what the memory holds
+    for (std::uint32_t count = 1; count <= most; ++count) {
+      const Draw draw{Topology::kPoints, format, kIndices, 0, count};
+      for (std::uint32_t i = 0; i < count; ++i) put(format, i, 5);
+      for (std::uint32_t place = 0; place < count; ++place) {
+        SCOPED_TRACE(std::to_string(place) + " of " + std::to_string(count));
+        for (const std::uint32_t index : {2u, 7u}) {
+          sink.draws.clear();
+          put(format, place, index);
+          ASSERT_TRUE(decode_packets(kGoodTarget, good_streams(), draw).ok());
+          const std::uint32_t others = count > 1 ? 5 : index;
+          ASSERT_EQ(sink.draws[0].min_vertex, std::min(index, others));
+          ASSERT_EQ(sink.draws[0].max_vertex, std::max(index, others));
+        }
+        for (const std::uint32_t bad : {8u, 0x8000u, 0xFFFFu, 0x80000000u, 0xFFFFFFFFu}) {
+          if (format == IndexFormat::kU16 && bad > 0xFFFF) continue;
+          put(format, place, bad);
+          ASSERT_FALSE(decode_packets(kGoodTarget, good_streams(), draw).ok()) << bad;
+        }
+        put(format, place, 5);
+      }
+    }
+  }
 }
 
 TEST_F(DecodeTest, VerticesAndIndicesMustNotLieInATarget) {
