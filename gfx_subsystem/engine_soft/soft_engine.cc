@@ -10,10 +10,15 @@ using namespace soft;
 namespace {
 
 constexpr std::size_t kCacheLine = 64;
-/// Primitives after which a job is closed. Small enough to share out among threads and for a job's vertices to stay in
-/// the nearer caches; arbitrary otherwise.
-constexpr std::uint32_t kPrimitivesPerJob = 8192;
-constexpr std::uint32_t kMaxJobs = 64;
+constexpr std::uint32_t kMaxJobs = 96;
+
+/// Primitives after which the round's `job`-th job is closed. Small ones first, so that a small scene too is shared out
+/// among threads; they double until a job's vertices just stay in the nearer caches, so that the table serves large scenes.
+/// Found by measuring; no byte depends on it.
+constexpr std::uint32_t primitives_in_job(std::uint32_t job) {
+  const std::uint32_t doublings = job / 8;
+  return doublings >= 4 ? 8192 : 512u << doublings;
+}
 
 TileGrid grid_of(std::uint32_t width, std::uint32_t height) {
   const auto tiles = [](std::uint32_t pixels) { return (static_cast<std::int32_t>(pixels) + kTileSize - 1) / kTileSize; };
@@ -186,7 +191,7 @@ Status SoftEngine::draw(const EngineState& s, const DrawCall& call) {
 
 void SoftEngine::add_draw_items(std::uint32_t draw, std::uint32_t primitives) {
   for (std::uint32_t first = 0; first < primitives;) {
-    if (item_count_ == items_.size() || (job_count_ == jobs_.size() && open_job_primitives_ >= kPrimitivesPerJob)) {
+    if (item_count_ == items_.size() || (job_count_ == jobs_.size() && open_job_room_ == 0)) {
       // The tables begin anew; the draw goes on in the next round.
       const DrawSetup setup = draws_[draw];
       const bool uses_depth = round_.uses_depth;
@@ -196,7 +201,7 @@ void SoftEngine::add_draw_items(std::uint32_t draw, std::uint32_t primitives) {
       draw = 0;
       draw_count_ = 1;
     }
-    const std::uint32_t room = job_count_ == 0 || open_job_primitives_ >= kPrimitivesPerJob ? kPrimitivesPerJob : kPrimitivesPerJob - open_job_primitives_;
+    const std::uint32_t room = open_job_room_ > 0 ? open_job_room_ : primitives_in_job(job_count_);
     const std::uint32_t count = std::min(primitives - first, room);
     append_item({false, draw, first, count});
     first += count;
@@ -206,15 +211,14 @@ void SoftEngine::add_draw_items(std::uint32_t draw, std::uint32_t primitives) {
 /// The item table has room.
 void SoftEngine::append_item(const WorkItem& item) {
   items_[item_count_] = item;
-  const bool open = job_count_ > 0 && (open_job_primitives_ < kPrimitivesPerJob || job_count_ == jobs_.size());
-  if (!open) {
+  if (open_job_room_ == 0 && job_count_ < jobs_.size()) {
+    open_job_room_ = primitives_in_job(job_count_);
     Job& job = jobs_[job_count_++];
     job = {{item_count_, 0, 0}, item_count_, false, 0, job.lists};
-    open_job_primitives_ = 0;
   }
   ++item_count_;
   jobs_[job_count_ - 1].end_item = item_count_;
-  open_job_primitives_ += item.count;
+  open_job_room_ -= item.count;
 }
 
 void SoftEngine::finish_round() {
@@ -238,13 +242,14 @@ void SoftEngine::finish_round() {
   round_.jobs = jobs_.data();
   round_.uses_depth = false;
   draw_count_ = clear_count_ = item_count_ = job_count_ = 0;
-  open_job_primitives_ = 0;
+  open_job_room_ = 0;
 }
 
 /// Runs the phase's jobs; how many of them, from the first on, are complete.
 std::uint32_t SoftEngine::run_geometry() {
   pool_.reuse();
   exhausted_.store(false, std::memory_order_relaxed);
+  next_job_.store(0, std::memory_order_relaxed);
   for (std::uint32_t j = 0; j < phase_jobs_; ++j) {
     round_.jobs[j].complete = false;
     round_.jobs[j].faces_drawn = 0;
@@ -258,7 +263,7 @@ std::uint32_t SoftEngine::run_geometry() {
 void SoftEngine::run_geometry_worker(std::uint32_t worker) {
   const std::uint32_t tiles = round_.grid.count();
   while (!exhausted_.load(std::memory_order_relaxed)) {
-    const std::uint32_t j = next_part_.fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t j = next_job_.fetch_add(1, std::memory_order_relaxed);
     if (j >= phase_jobs_) return;
     Job& job = round_.jobs[j];
     std::fill_n(job.lists, tiles, TileList{});
@@ -269,28 +274,39 @@ void SoftEngine::run_geometry_worker(std::uint32_t worker) {
 
 void SoftEngine::run_tiles(std::uint32_t jobs) {
   phase_jobs_ = jobs;
-  phase_parts_ = round_.grid.count();
+  share_out(round_.grid.count());
   run_workers<&SoftEngine::run_tile_worker>(false);
 }
 
 void SoftEngine::run_tile_worker(std::uint32_t worker) {
-  for (;;) {
-    const std::uint32_t part = next_part_.fetch_add(1, std::memory_order_relaxed);
-    if (part >= phase_parts_) return;
-    if (draw_count_ == 0) kernels_->run_clears(round_, part);
-    else kernels_->run_tile(round_, workers_[worker], part, phase_jobs_);
+  for (std::uint32_t w = 0; w < worker_count_; ++w) {  // its own share, then what the others have left
+    Share& share = shares_[(worker + w) % worker_count_];
+    for (;;) {
+      const std::uint32_t part = share.next.fetch_add(1, std::memory_order_relaxed);
+      if (part >= share.end) break;
+      if (draw_count_ == 0) kernels_->run_clears(round_, part);
+      else kernels_->run_tile(round_, workers_[worker], part, phase_jobs_);
+    }
   }
 }
 
 void SoftEngine::run_clears() {
   round_.clear_count = clear_count_;
-  phase_parts_ = static_cast<std::uint32_t>(round_.grid.rows);
+  share_out(static_cast<std::uint32_t>(round_.grid.rows));
   run_workers<&SoftEngine::run_tile_worker>(false);
+}
+
+/// Every worker begins at a place of its own, the same in every frame: a tile is then mostly stored by the core whose
+/// caches hold its lines.
+void SoftEngine::share_out(std::uint32_t parts) {
+  for (std::uint32_t w = 0; w < worker_count_; ++w) {
+    shares_[w].next.store(parts * w / worker_count_, std::memory_order_relaxed);
+    shares_[w].end = parts * (w + 1) / worker_count_;
+  }
 }
 
 template <void (SoftEngine::*work)(std::uint32_t)>
 void SoftEngine::run_workers(bool alone) {
-  next_part_.store(0, std::memory_order_relaxed);
   if (worker_count_ > 1 && !alone)
     runner_->run(worker_count_, [](void* engine, std::uint32_t w) { (static_cast<SoftEngine*>(engine)->*work)(w); }, this);
   else

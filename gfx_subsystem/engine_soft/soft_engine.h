@@ -52,6 +52,7 @@ class SoftEngine final : public Engine, private CommandSink {
   void run_tiles(std::uint32_t jobs);
   void run_tile_worker(std::uint32_t worker);
   void run_clears();
+  void share_out(std::uint32_t parts);
   /// Lets every worker of the phase run `work`.
   template <void (SoftEngine::*work)(std::uint32_t)>
   void run_workers(bool alone);
@@ -67,7 +68,7 @@ class SoftEngine final : public Engine, private CommandSink {
   std::span<soft::Job> jobs_;
   std::span<soft::TileList> lists_;
   std::uint32_t draw_count_ = 0, clear_count_ = 0, item_count_ = 0, job_count_ = 0;
-  std::uint32_t open_job_primitives_ = 0;
+  std::uint32_t open_job_room_ = 0;  // primitives that the last job still takes
 
   soft::SlotPool pool_;
   soft::Round round_;
@@ -75,9 +76,14 @@ class SoftEngine final : public Engine, private CommandSink {
   std::uint32_t worker_count_ = 0;
 
   // Shared by the workers of a phase.
-  std::atomic<std::uint32_t> next_part_{0};
+  std::atomic<std::uint32_t> next_job_{0};
   std::atomic<bool> exhausted_{false};
-  std::uint32_t phase_jobs_ = 0, phase_parts_ = 0;
+  std::uint32_t phase_jobs_ = 0;
+  struct alignas(64) Share {  // of the tiles: from next to end, a cache line for each worker
+    std::atomic<std::uint32_t> next{0};
+    std::uint32_t end = 0;
+  };
+  Share shares_[kMaxWorkers];
 
   EngineCounters counters_;
 };
