@@ -1,5 +1,7 @@
 #include "firmware/simplify/edge_cost.h"
 
+#include <cstring>
+
 #include "firmware/simplify/edge_minimum.h"
 
 namespace usuzumi::firmware {
@@ -80,29 +82,36 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
   return result;
 }
 
-void cost_four_edges(const Surface& surface, const std::uint32_t* a, const std::uint32_t* b, Placement placement, float* costs) {
-  if (placement == Placement::kMidpoint) {
-    for (int i = 0; i < 4; ++i) costs[i] = cost_edge(surface, a[i], b[i], placement).cost;
-    return;
+void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement placement, float* costs) {
+  const auto cost_one = [&](Corner edge) {
+    return cost_edge(surface, surface.vertex_at(edge), surface.vertex_at(next_in_face(edge)), placement).cost;
+  };
+  std::size_t first = 0;
+  if (placement == Placement::kOptimal) {
+    for (; first + 4 <= edges.size(); first += 4) {
+      const Quadric *qa[4], *qb[4];
+      Vec3 sides[4];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t a = surface.vertex_at(edges[first + i]), b = surface.vertex_at(next_in_face(edges[first + i]));
+        qa[i] = &surface.vertices[a].quadric;
+        qb[i] = &surface.vertices[b].quadric;
+        sides[i] = surface.position(b) - surface.position(a);
+      }
+      const Vec3Of<Float4> e = {gather([&](int i) { return sides[i].x; }), gather([&](int i) { return sides[i].y; }),
+                                gather([&](int i) { return sides[i].z; })};
+      EdgeMinimum<Float4> m;
+      sum_quadrics(gather_quadrics(qa), gather_quadrics(qb), e, m.sum);
+      minimise(e, m);
+      const auto believed = (m.system.d0 > 0) & (m.system.d1 > 0) & (m.system.d2 > 0) &
+                            (m.far_squared <= kFarthestMinimumSquared * m.edge_squared);  // -1 or 0 in every lane
+      const Float4 least = m.cost > 0 ? m.cost : Float4{};
+      std::memcpy(costs + first, &least, sizeof least);
+      if ((believed[0] & believed[1] & believed[2] & believed[3]) != 0) [[likely]] continue;
+      for (std::size_t i = 0; i < 4; ++i)
+        if (believed[i] == 0) costs[first + i] = cost_one(edges[first + i]);
+    }
   }
-  const Quadric* qa[4];
-  const Quadric* qb[4];
-  Vec3 edges[4];
-  for (int i = 0; i < 4; ++i) {
-    qa[i] = &surface.vertices[a[i]].quadric;
-    qb[i] = &surface.vertices[b[i]].quadric;
-    edges[i] = surface.position(b[i]) - surface.position(a[i]);
-  }
-  const Vec3Of<Float4> e = {gather([&](int i) { return edges[i].x; }), gather([&](int i) { return edges[i].y; }),
-                            gather([&](int i) { return edges[i].z; })};
-  EdgeMinimum<Float4> m;
-  sum_quadrics(gather_quadrics(qa), gather_quadrics(qb), e, m.sum);
-  minimise(e, m);
-  for (int i = 0; i < 4; ++i) {
-    costs[i] = believable(m.system.d0[i], m.system.d1[i], m.system.d2[i], m.far_squared[i], m.edge_squared[i])
-                   ? at_least_zero(m.cost[i])
-                   : cost_edge(surface, a[i], b[i], placement).cost;
-  }
+  for (; first < edges.size(); ++first) costs[first] = cost_one(edges[first]);
 }
 
 }  // namespace usuzumi::firmware

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "firmware/simplify/quadric.h"
 #include "firmware/simplify/simplify.h"
@@ -21,7 +22,7 @@ inline float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 /// middle on a tie.
 EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement);
 
-/// The same costs, bit for bit, of four edges.
-void cost_four_edges(const Surface& surface, const std::uint32_t* a, const std::uint32_t* b, Placement placement, float* costs);
+/// The same costs, bit for bit, of many half-edges' edges.
+void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement placement, float* costs);
 
 }  // namespace usuzumi::firmware

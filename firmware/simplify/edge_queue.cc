@@ -52,26 +52,12 @@ void sort_keys(std::span<EdgeKey> keys) {
 
 }  // namespace
 
-void EdgeQueue::begin_fill() {
-  horizon_ = kEdgeKeyMax;
-  filled_ = 0;
-  heap_size_ = 0;
-  run_begin_ = slots_.size();
-}
-
-void EdgeQueue::halve_fill() {
-  const std::size_t keep = slots_.size() / 2;
-  std::nth_element(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(keep), slots_.end());
-  horizon_ = slots_[keep];
-  filled_ = keep;
-}
-
-void EdgeQueue::end_fill() {
+void EdgeQueue::start(std::size_t count) {
   // The run is read from its front and has to end where the slots end.
-  run_begin_ = slots_.size() - filled_;
-  std::copy_backward(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(filled_), slots_.end());
+  heap_size_ = 0;
+  run_begin_ = slots_.size() - count;
+  std::copy_backward(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(count), slots_.end());
   sort_keys(slots_.subspan(run_begin_));
-  filled_ = 0;
 }
 
 EdgeKey EdgeQueue::top() const {
@@ -93,7 +79,7 @@ EdgeKey EdgeQueue::pop() {
 }
 
 bool EdgeQueue::push(EdgeKey key) {
-  if (key >= horizon_ || heap_size_ == run_begin_) return false;
+  if (heap_size_ == run_begin_) return false;
   std::size_t hole = heap_size_++;
   while (hole > 0) {
     const std::size_t parent = (hole - 1) / kArity;

@@ -3,11 +3,14 @@
 // Where we depart from the paper: quadrics are relative to their vertices (quadric.h); pairs are edges only; an edge's
 // cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. Costs mostly
 // rise as quadrics are summed, and then that is the same order; an edge whose cost has fallen (by midpoint placement, by
-// the pull towards the edge's middle or where the minimum could not be used) is taken later than it might be.
+// the pull towards the edge's middle or where the minimum could not be used) is taken later than it might be. And edges
+// are not ordered over the whole mesh but region by region up to a cost that rises from pass to pass (edge_candidates.h):
+// memory is then walked along, not jumped about in, and the time per face hardly grows with the mesh.
 #include <cmath>
 
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/collapse_rules.h"
+#include "firmware/simplify/edge_candidates.h"
 #include "firmware/simplify/edge_collapse.h"
 #include "firmware/simplify/edge_cost.h"
 #include "firmware/simplify/edge_queue.h"
@@ -19,24 +22,38 @@
 namespace usuzumi::firmware {
 namespace {
 
+constexpr std::uint32_t kEdgesAtOnce = 256;  // costed in one go when candidates are looked for; arbitrary
+
 constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
 
 constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
-// A quarter of a closed surface's edges. A fill's horizon is then low, so that most edges that grow dearer leave the queue
-// at once and are found again, four at a time, by a later fill; more slots were measured to be slower. Small meshes take
-// all their edges: there a fill is what costs. Both numbers by measuring.
-constexpr std::size_t kSlotsOfSmallMeshes = 4096;
-constexpr std::size_t queue_slots(std::uint32_t face_count) {
-  const std::size_t some = std::size_t{face_count} * 3 / 8;
-  const std::size_t all = std::size_t{face_count} * 3 / 2 + EdgeQueue::kLeastSlots;
-  const std::size_t least = all < kSlotsOfSmallMeshes ? all : kSlotsOfSmallMeshes;
+// Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges that
+// grow dearer leave the table at once and are found again, four at a time, by a later fill; more were measured to be
+// slower. Small meshes keep half of their edges: there a fill is what costs. Both numbers by measuring.
+constexpr std::size_t kCandidatesOfSmallMeshes = 4096;
+constexpr std::size_t candidate_slots(std::uint32_t face_count) {
+  const std::size_t some = std::size_t{face_count} / 4;
+  const std::size_t half = std::size_t{face_count} * 3 / 4 + 16;
+  const std::size_t least = half < kCandidatesOfSmallMeshes ? half : kCandidatesOfSmallMeshes;
   return some > least ? some : least;
+}
+
+// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 50 bytes each with
+// their vertices) is to stay in the nearer caches. By measuring.
+constexpr std::size_t kMostInBatch = 2048;
+constexpr std::size_t batch_size(std::uint32_t face_count) {
+  const std::size_t slots = candidate_slots(face_count);
+  return slots < kMostInBatch ? slots : kMostInBatch;
+}
+constexpr std::size_t queue_slots(std::uint32_t face_count) {  // with room for edges that a collapse brings up
+  return batch_size(face_count) + batch_size(face_count) / 8;
 }
 
 // The welding table lies where links and queue come to lie later.
 constexpr std::size_t links_and_queue_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  const std::size_t later = aligned(std::size_t{face_count} * 12) + aligned(queue_slots(face_count) * sizeof(EdgeKey));
+  const std::size_t later = aligned(std::size_t{face_count} * 12) + aligned(candidate_slots(face_count) * sizeof(EdgeKey)) +
+                            aligned(queue_slots(face_count) * sizeof(EdgeKey));
   const std::size_t table = weld_table_slots(vertex_count) * 4;
   return later > table ? later : table;
 }
@@ -64,7 +81,7 @@ Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
 class QemSimplifier {
  public:
   QemSimplifier(WorkingMesh& mesh, const SimplifyOptions& options)
-      : mesh_(mesh), options_(options), rules_(surface_), queue_({}) {}
+      : mesh_(mesh), options_(options), rules_(surface_), candidates_({}), queue_({}) {}
 
   Result<SimplifyOutcome> run(Arena& scratch) {
     if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
@@ -84,8 +101,12 @@ class QemSimplifier {
   void copy_positions();
   void collapse_to_target();
   void fetch_ahead();
-  bool fill_queue();
-  void offer_four(const Corner* edges, std::uint32_t count);
+  bool find_candidates();
+  void run_pass(std::size_t rank);
+  void collapse_next();
+  void fetch_region(std::span<const EdgeKey> batch);
+  void put_off(EdgeKey key);
+  void offer(std::span<const Corner> edges);
   void push_edge(Corner edge);
   bool try_collapse(Corner edge, const EdgeCost& cost);
   void refuse(Corner edge);
@@ -103,7 +124,9 @@ class QemSimplifier {
   Surface surface_;
   WedgeAttributes attributes_;
   CollapseRules rules_;
-  EdgeQueue queue_;
+  EdgeCandidates candidates_;
+  EdgeQueue queue_;  // a batch of candidates
+  EdgeKey limit_ = 0;  // of the pass: what costs more is left for a later one
   std::span<std::uint32_t> vertex_of_wedge_;
   std::span<std::uint32_t> weld_table_;
   std::uint32_t* seam_map_ = nullptr;  // vertex_of_wedge_ where some vertex has several wedges
@@ -124,6 +147,7 @@ bool QemSimplifier::carve(Arena& scratch) {
   weld_table_ = arena.allocate<std::uint32_t>(weld_table_slots(mesh_.vertex_count), kAlignment);
   arena.rewind(mark);
   surface_.next_corner = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 3, kAlignment).data();
+  candidates_ = EdgeCandidates(arena.allocate<EdgeKey>(candidate_slots(mesh_.face_count), kAlignment));
   queue_ = EdgeQueue(arena.allocate<EdgeKey>(queue_slots(mesh_.face_count), kAlignment));
   surface_.indices = mesh_.indices.data();
   surface_.vertex_count = mesh_.vertex_count;
@@ -166,29 +190,81 @@ void QemSimplifier::copy_positions() {
 
 void QemSimplifier::collapse_to_target() {
   while (faces_ > options_.target_faces) {
-    if (queue_.empty() && !fill_queue()) {
+    if (candidates_.size() == 0 && !find_candidates()) {
       outcome_.stop = StopReason::kNoCollapseAllowed;
       return;
     }
-    const EdgeKey key = queue_.pop();
-    fetch_ahead();
-    ++outcome_.work.queue_operations;
-    const Corner edge = edge_of(key);
-    // Its face may be gone, or another half-edge may stand for the edge now.
-    if ((surface_.next_corner[corner_index(edge)] & kRepresentative) == 0) continue;
-    const EdgeCost cost = cost_of_edge(edge);
-    const EdgeKey now = edge_key(cost.cost, edge);
-    if (now > key && (now > queue_.top() || now >= queue_.horizon())) {
-      queue_.push(now);
-      ++outcome_.work.queue_operations;
-      continue;
-    }
-    if (!try_collapse(edge, cost)) refuse(edge);
+    // A collapse removes two faces at most (more only where the surface is no manifold), so this many candidates cannot
+    // reach the target before every region has had its turn; the last batch is then one of the whole mesh, by cost alone.
+    const std::size_t most = (faces_ - options_.target_faces) / 2;
+    const std::size_t batch = batch_size(surface_.face_count);
+    run_pass(most > batch ? most : batch);
   }
 }
 
-// What the next edges of the run will need is asked for while this one is worked on; they lie anywhere in memory.
-void QemSimplifier::fetch_ahead() {
+/// Collapses what costs less than all but `rank` of the candidates, region by region.
+void QemSimplifier::run_pass(std::size_t rank) {
+  limit_ = candidates_.key_of_rank(rank);
+  candidates_.begin_pass();
+  for (;;) {
+    const std::size_t count = candidates_.take(limit_, queue_.slots().first(batch_size(surface_.face_count)));
+    if (count == 0) return;
+    fetch_region(queue_.slots().first(count));
+    queue_.start(count);
+    while (!queue_.empty()) {
+      if (faces_ <= options_.target_faces) return;
+      collapse_next();
+    }
+  }
+}
+
+// Asks for the batch's part of the mesh in the order it lies in memory; the batch then goes about in it by cost. Inlined
+// by force: GCC takes a function that only prefetches for one without effect, and drops the call.
+[[gnu::always_inline]] inline void QemSimplifier::fetch_region(std::span<const EdgeKey> batch) {
+  std::uint32_t first = surface_.face_count, last = 0;
+  for (const EdgeKey key : batch) {
+    const std::uint32_t face = edge_of(key) >> 2;
+    first = face < first ? face : first;
+    last = face > last ? face : last;
+  }
+  constexpr std::size_t kMostFacesPerEdge = 64;  // beyond, most of what would be asked for is not needed; arbitrary
+  if ((last - first) / kMostFacesPerEdge > batch.size()) return;
+  for (std::uint32_t face = first; face <= last; ++face) {
+    if (surface_.is_dead(face)) continue;
+    __builtin_prefetch(&surface_.next_corner[std::size_t{face} * 3]);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = surface_.vertex_at(face * 4 + k);
+      __builtin_prefetch(&surface_.places[v]);
+      __builtin_prefetch(&surface_.vertices[v]);
+      __builtin_prefetch(&surface_.vertices[v].first_corner);
+    }
+  }
+}
+
+void QemSimplifier::collapse_next() {
+  const EdgeKey key = queue_.pop();
+  fetch_ahead();
+  ++outcome_.work.queue_operations;
+  const Corner edge = edge_of(key);
+  // Its face may be gone, or another half-edge may stand for the edge now.
+  if ((surface_.next_corner[corner_index(edge)] & kRepresentative) == 0) return;
+  const EdgeCost cost = cost_of_edge(edge);
+  const EdgeKey now = edge_key(cost.cost, edge);
+  if (now > key && (now > queue_.top() || now >= limit_)) {
+    put_off(now);
+    return;
+  }
+  if (!try_collapse(edge, cost)) refuse(edge);
+}
+
+/// To its place in the batch, or in a later pass.
+void QemSimplifier::put_off(EdgeKey key) {
+  if (key >= limit_ || !queue_.push(key)) candidates_.keep(key);
+  ++outcome_.work.queue_operations;
+}
+
+// What the next edges of the batch will need is asked for while this one is worked on. Inlined by force, as above.
+[[gnu::always_inline]] inline void QemSimplifier::fetch_ahead() {
   constexpr std::size_t kFar = 8, kNear = 4;
   if (queue_.run_left() <= kFar) return;
   const std::size_t far = corner_index(edge_of(queue_.in_run(kFar)));
@@ -204,50 +280,38 @@ void QemSimplifier::fetch_ahead() {
   }
 }
 
-/// All edges but the refused ones, as many of the cheapest as fit. False where there is none.
-bool QemSimplifier::fill_queue() {
-  queue_.begin_fill();
-  Corner waiting[4 + 2];  // four are costed together; the last face's others wait
+/// The cheapest of all edges but the refused ones, as many as fit. False where there is none.
+bool QemSimplifier::find_candidates() {
+  // Found first and costed after, a block at a time: each loop then runs without surprises for the processor.
+  Corner edges[kEdgesAtOnce + 3];
   std::uint32_t count = 0;
+  candidates_.begin_fill();
   for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
     const std::uint32_t* links = surface_.next_corner + std::size_t{face} * 3;
-    if (((links[0] | links[1] | links[2]) & kRepresentative) == 0) continue;
     for (std::uint32_t k = 0; k < 3; ++k) {
       // Stored in any case, counted where it stands for an edge: as good as random, so no branch.
-      waiting[count] = face * 4 + k;
+      edges[count] = face * 4 + k;
       count += (links[k] & (kRepresentative | kRefused)) == kRepresentative ? 1u : 0u;
     }
-    if (count < 4) continue;
-    offer_four(waiting, 4);
-    count -= 4;
-    waiting[0] = waiting[4];
-    waiting[1] = waiting[5];
+    if (count < kEdgesAtOnce) continue;
+    offer({edges, kEdgesAtOnce});
+    count -= kEdgesAtOnce;
+    for (std::uint32_t i = 0; i < count; ++i) edges[i] = edges[kEdgesAtOnce + i];
   }
-  if (count > 0) {
-    for (std::uint32_t i = count; i < 4; ++i) waiting[i] = waiting[0];
-    offer_four(waiting, count);
-  }
-  queue_.end_fill();
-  return !queue_.empty();
+  if (count > 0) offer({edges, count});
+  return candidates_.size() > 0;
 }
 
-/// Costs four edges and offers the first `count`.
-void QemSimplifier::offer_four(const Corner* edges, std::uint32_t count) {
-  std::uint32_t a[4], b[4];
-  for (int i = 0; i < 4; ++i) {
-    a[i] = surface_.vertex_at(edges[i]);
-    b[i] = surface_.vertex_at(next_in_face(edges[i]));
-  }
-  float costs[4];
-  cost_four_edges(surface_, a, b, options_.placement, costs);
-  for (std::uint32_t i = 0; i < count; ++i) queue_.offer(edge_key(costs[i], edges[i]));
-  outcome_.work.edges_costed += count;
-  outcome_.work.queue_operations += count;
+void QemSimplifier::offer(std::span<const Corner> edges) {
+  float costs[kEdgesAtOnce];
+  cost_edges(surface_, edges, options_.placement, costs);
+  for (std::size_t i = 0; i < edges.size(); ++i) candidates_.offer(edge_key(costs[i], edges[i]));
+  outcome_.work.edges_costed += edges.size();
+  outcome_.work.queue_operations += edges.size();
 }
 
 void QemSimplifier::push_edge(Corner edge) {
-  queue_.push(edge_key(cost_of_edge(edge).cost, edge));
-  ++outcome_.work.queue_operations;
+  put_off(edge_key(cost_of_edge(edge).cost, edge));
 }
 
 bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {

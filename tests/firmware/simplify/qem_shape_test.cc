@@ -36,6 +36,24 @@ TEST(QemShape, ClosedManifoldStaysClosedManifoldAndOriented) {
   }
 }
 
+// Large meshes are worked off region by region. Wherever the quota is met, no region may be left whole: the sphere is the
+// same all over, so each of its eight octants keeps an eighth of the faces.
+TEST(QemShape, RegionsOfALargeSphereAreThinnedAlike) {
+  const Mesh sphere = icosphere(6);  // some ten batches
+  for (const std::uint32_t percent : {90u, 70u, 50u, 30u, 10u}) {
+    const auto target = static_cast<std::uint32_t>(sphere.face_count() * percent / 100);
+    const Thinned thinned = thin(sphere, target);
+    ASSERT_TRUE(thinned.status.ok());
+    std::size_t faces[8] = {};
+    for (std::size_t f = 0; f < thinned.mesh.indices.size(); f += 3) {
+      const Vec3 middle = thinned.mesh.positions[thinned.mesh.indices[f]] + thinned.mesh.positions[thinned.mesh.indices[f + 1]] +
+                          thinned.mesh.positions[thinned.mesh.indices[f + 2]];
+      ++faces[(middle.x > 0 ? 1 : 0) + (middle.y > 0 ? 2 : 0) + (middle.z > 0 ? 4 : 0)];
+    }
+    for (const std::size_t in_octant : faces) EXPECT_NEAR(static_cast<double>(in_octant), target / 8.0, target / 8.0 * 0.1) << percent;
+  }
+}
+
 TEST(QemShape, PlaneThinsToTwoFacesWithoutError) {
   const Thinned thinned = thin(grid(16, 16), 2);
   ASSERT_TRUE(thinned.status.ok());
