@@ -15,7 +15,8 @@ constexpr std::uint32_t kLastEpoch = kEpochMask >> kEpochShift;
 constexpr std::uint32_t count_a(std::uint32_t mark) { return mark & kCountMask; }
 constexpr std::uint32_t count_b(std::uint32_t mark) { return (mark >> 4) & kCountMask; }
 
-// A face may turn by at most acos(0.2), about 78 degrees, in one collapse. Arbitrary.
+// A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by 90 in all: no face ever looks
+// to the side that was its back.
 constexpr float kLeastCosineSquared = 0.2f * 0.2f;
 // Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is less
 // than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of 48
@@ -89,7 +90,7 @@ bool CollapseRules::keeps_regular_topology(Neighbourhood& n, bool& decided) {
     if (p == n.b || q == n.b) {
       if (n.apex_count < 2) n.apexes[n.apex_count++] = p == n.b ? q : p;
     } else {
-      faces_.add(pp, qq, normal);
+      faces_.add(pp, qq, normal, s.facing(c));
     }
   }
   std::uint32_t common = 0;
@@ -105,7 +106,7 @@ bool CollapseRules::keeps_regular_topology(Neighbourhood& n, bool& decided) {
     const Vec3 normal = cross(pp - end, qq - end);
     area = area + normal;
     swept += dot(normal, edge);
-    faces_.add(pp, qq, normal);
+    faces_.add(pp, qq, normal, s.facing(c));
   }
   decided = faces_at_a > 3 && faces_at_b > 3;
   n.touches_refused = (flags & kTouchesRefused) != 0;
@@ -149,7 +150,7 @@ bool CollapseRules::keeps_any_topology(Neighbourhood& n) {
     const Vec3 normal = cross(pp - origin, qq - origin);
     area = area + normal;
     if (p != n.b && q != n.b) {
-      faces_.add(pp, qq, normal);
+      faces_.add(pp, qq, normal, s.facing(c));
       continue;
     }
     if (++faces_on_edge > kMostFacesOnEdge) return false;
@@ -184,7 +185,7 @@ bool CollapseRules::keeps_any_topology(Neighbourhood& n) {
     const Vec3 normal = cross(pp - end, qq - end);
     area = area + normal;
     swept += dot(normal, edge);
-    faces_.add(pp, qq, normal);
+    faces_.add(pp, qq, normal, s.facing(c));
     b_spans_apexes = b_spans_apexes || (places[p].mark & places[q].mark & kApex) != 0;
   }
 
@@ -226,6 +227,7 @@ bool CollapseRules::turns_a_face_at(std::uint32_t v, std::uint32_t other, Vec3 p
     const float squared_before = dot(before, before);
     const float squared_after = dot(after, after);
     const float along = dot(before, after);
+    if (dot(unpack(s.facing(c)), after) < 0) return true;
     // A face that had no area has no side to be turned to.
     if (squared_before > 0 && !(along > 0 && along * along > kLeastCosineSquared * squared_before * squared_after)) return true;
     const float side_after = longest_side_squared(u1, v1);
@@ -249,9 +251,10 @@ bool CollapseRules::turns_a_face(const Neighbourhood& n, Vec3 position) const {
       const float squared_before = dot(before, before), squared_after = dot(after, after), along = dot(before, after);
       const float side = longest_side_squared(u, v);
       const std::uint32_t faces_on = along > 0 ? 1u : 0u;
+      const std::uint32_t as_in_model = dot(unpack(f.facing[i]), after) >= 0 ? 1u : 0u;
       const std::uint32_t within_limit = along * along > kLeastCosineSquared * squared_before * squared_after ? 1u : 0u;
       const std::uint32_t no_sliver = squared_after >= kSliverSquared * side * side ? 1u : 0u;
-      doubtful |= (faces_on & within_limit & no_sliver) ^ 1u;
+      doubtful |= (faces_on & as_in_model & within_limit & no_sliver) ^ 1u;
     }
     if (doubtful == 0) return false;
   }

@@ -32,8 +32,9 @@ struct FacesAtHand {
   float px[kMostFacesAtHand], py[kMostFacesAtHand], pz[kMostFacesAtHand];  // the corner after the moving one
   float qx[kMostFacesAtHand], qy[kMostFacesAtHand], qz[kMostFacesAtHand];  // the corner before it
   float nx[kMostFacesAtHand], ny[kMostFacesAtHand], nz[kMostFacesAtHand];  // twice the area vector
+  PackedNormal facing[kMostFacesAtHand];                                   // see Surface
 
-  void add(Vec3 p, Vec3 q, Vec3 normal) {
+  void add(Vec3 p, Vec3 q, Vec3 normal, PackedNormal looked) {
     if (count >= kMostFacesAtHand) {
       count = kMostFacesAtHand + 1;
       return;
@@ -41,6 +42,7 @@ struct FacesAtHand {
     px[count] = p.x, py[count] = p.y, pz[count] = p.z;
     qx[count] = q.x, qy[count] = q.y, qz[count] = q.z;
     nx[count] = normal.x, ny[count] = normal.y, nz[count] = normal.z;
+    facing[count] = looked;
     ++count;
   }
 };
@@ -53,7 +55,8 @@ class CollapseRules {
   /// more faces than two that no edge there had before.
   bool keeps_topology(Neighbourhood& n);
 
-  /// True when moving both ends to `position` turns a remaining face by more than the limit or makes it a sliver. `n` is
+  /// True when moving both ends to `position` turns a remaining face by more than the limit, away from the side that it
+  /// looked to in the model, or makes it a sliver. `n` is
   /// of the last call of keeps_topology, and that returned true.
   bool turns_a_face(const Neighbourhood& n, Vec3 position) const;
 

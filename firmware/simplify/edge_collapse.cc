@@ -35,7 +35,7 @@ struct Merge {
     if (last == kNoCorner) {
       surface.vertices[keep].first_corner = c;
     } else {
-      std::uint32_t& link = surface.next_corner[corner_index(last)];
+      std::uint32_t& link = surface.links[last];
       link = (link & ~kCornerMask) | c;
     }
     last = c;
@@ -49,12 +49,12 @@ struct Merge {
     // The half-edge from one end to the other is the collapsed edge; the other two are the apex's.
     const Corner collapsed = next_in_face(at_keep) == at_remove ? at_keep : at_remove;
     for (Corner c = next_in_face(collapsed); c != collapsed; c = next_in_face(c))
-      if ((surface.next_corner[corner_index(c)] & kRepresentative) != 0) ++representatives_lost[i];
+      if ((surface.links[c] & kRepresentative) != 0) ++representatives_lost[i];
     unlink_corner(surface, apex, at_apex);
-    const std::size_t first = std::size_t{at_apex >> 2} * 3;
-    surface.indices[first] = kDeadFace;
+    const Corner first = at_apex & ~Corner{3};
+    surface.indices[corner_index(first)] = kDeadFace;
     // The links stay: the other end's list is still to be walked across this face.
-    for (std::size_t k = 0; k < 3; ++k) surface.next_corner[first + k] &= kCornerMask;
+    for (Corner c = first; c < first + 3; ++c) surface.links[c] &= kCornerMask;
   }
 
   // Of the two edges that have become one towards `apex`, leaves one representative. The corner that was newly chosen,
@@ -67,7 +67,7 @@ struct Merge {
       if (surface.vertex_at(next_in_face(c)) == apex) half_edge = c;
       else if (surface.vertex_at(previous_in_face(c)) == apex) half_edge = previous_in_face(c);
       else continue;
-      std::uint32_t& flags = surface.next_corner[corner_index(half_edge)];
+      std::uint32_t& flags = surface.links[half_edge];
       if (lost == 2) {
         flags |= kRepresentative;
         return half_edge;
@@ -78,7 +78,7 @@ struct Merge {
         continue;
       }
       // Two: the refused one goes, for it has no entry in the queue.
-      std::uint32_t& first_flags = surface.next_corner[corner_index(found)];
+      std::uint32_t& first_flags = surface.links[found];
       std::uint32_t& drop = (first_flags & kRefused) != 0 ? first_flags : flags;
       drop &= ~(kRepresentative | kRefused);
       return kNoCorner;

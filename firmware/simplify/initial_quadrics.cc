@@ -30,7 +30,8 @@ void add_face_planes(Surface& s) {
     if (s.is_dead(face)) continue;
     const Vec3 normal = face_normal(s, face);
     const float twice_area = length(normal);
-    if (!(twice_area > 0)) continue;  // no plane
+    if (!(twice_area > 0)) continue;  // no plane, and no side
+    s.set_facing(face * 4, pack_normal(normal * (1.0f / twice_area)));
     for (Corner c = face * 4; c < face * 4 + 3; ++c)
       add_plane_through_owner(s.vertices[s.vertex_at(c)].quadric, normal, 1.0f / twice_area);
   }
@@ -91,7 +92,7 @@ void meet_edge(Surface& s, std::uint32_t v, Corner c, Corner half_edge, std::uin
     }
     mark &= ~(kRunsOut | kRunsIn);
     mark |= kChosen | (two_faces ? kTwoFaces : 0);
-    s.next_corner[corner_index(half_edge)] |= kRepresentative;
+    s.links[half_edge] |= kRepresentative;
     if (two_faces && s.vertex_of_wedge != nullptr) add_attribute_border(s, half_edge, c, other_end);
   }
   if ((mark & kTwoFaces) == 0) add_constraint_plane(s, half_edge, kBorderWeight);

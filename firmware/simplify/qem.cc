@@ -52,7 +52,7 @@ constexpr std::size_t queue_slots(std::uint32_t face_count) {  // with room for 
 
 // The welding table lies where links and queue come to lie later.
 constexpr std::size_t links_and_queue_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  const std::size_t later = aligned(std::size_t{face_count} * 12) + aligned(candidate_slots(face_count) * sizeof(EdgeKey)) +
+  const std::size_t later = aligned(std::size_t{face_count} * 16) + aligned(candidate_slots(face_count) * sizeof(EdgeKey)) +
                             aligned(queue_slots(face_count) * sizeof(EdgeKey));
   const std::size_t table = weld_table_slots(vertex_count) * 4;
   return later > table ? later : table;
@@ -146,7 +146,7 @@ bool QemSimplifier::carve(Arena& scratch) {
   const std::size_t mark = arena.used();
   weld_table_ = arena.allocate<std::uint32_t>(weld_table_slots(mesh_.vertex_count), kAlignment);
   arena.rewind(mark);
-  surface_.next_corner = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 3, kAlignment).data();
+  surface_.links = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 4, kAlignment).data();
   candidates_ = EdgeCandidates(arena.allocate<EdgeKey>(candidate_slots(mesh_.face_count), kAlignment));
   queue_ = EdgeQueue(arena.allocate<EdgeKey>(queue_slots(mesh_.face_count), kAlignment));
   surface_.indices = mesh_.indices.data();
@@ -231,7 +231,7 @@ void QemSimplifier::run_pass(std::size_t rank) {
   if ((last - first) / kMostFacesPerEdge > batch.size()) return;
   for (std::uint32_t face = first; face <= last; ++face) {
     if (surface_.is_dead(face)) continue;
-    __builtin_prefetch(&surface_.next_corner[std::size_t{face} * 3]);
+    __builtin_prefetch(&surface_.links[face * 4]);
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t v = surface_.vertex_at(face * 4 + k);
       __builtin_prefetch(&surface_.places[v]);
@@ -247,7 +247,7 @@ void QemSimplifier::collapse_next() {
   ++outcome_.work.queue_operations;
   const Corner edge = edge_of(key);
   // Its face may be gone, or another half-edge may stand for the edge now.
-  if ((surface_.next_corner[corner_index(edge)] & kRepresentative) == 0) return;
+  if ((surface_.links[edge] & kRepresentative) == 0) return;
   const EdgeCost cost = cost_of_edge(edge);
   const EdgeKey now = edge_key(cost.cost, edge);
   if (now > key && (now > queue_.top() || now >= limit_)) {
@@ -267,11 +267,11 @@ void QemSimplifier::put_off(EdgeKey key) {
 [[gnu::always_inline]] inline void QemSimplifier::fetch_ahead() {
   constexpr std::size_t kFar = 8, kNear = 4;
   if (queue_.run_left() <= kFar) return;
-  const std::size_t far = corner_index(edge_of(queue_.in_run(kFar)));
-  __builtin_prefetch(&surface_.next_corner[far]);
-  __builtin_prefetch(&surface_.indices[far]);
+  const Corner far = edge_of(queue_.in_run(kFar));
+  __builtin_prefetch(&surface_.links[far]);
+  __builtin_prefetch(&surface_.indices[corner_index(far)]);
   const Corner near = edge_of(queue_.in_run(kNear));
-  if ((surface_.next_corner[corner_index(near)] & kRepresentative) == 0) return;
+  if ((surface_.links[near] & kRepresentative) == 0) return;
   for (const Corner c : {near, next_in_face(near)}) {
     const std::uint32_t v = surface_.vertex_at(c);
     __builtin_prefetch(&surface_.places[v]);
@@ -287,7 +287,7 @@ bool QemSimplifier::find_candidates() {
   std::uint32_t count = 0;
   candidates_.begin_fill();
   for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
-    const std::uint32_t* links = surface_.next_corner + std::size_t{face} * 3;
+    const std::uint32_t* links = surface_.links + std::size_t{face} * 4;
     for (std::uint32_t k = 0; k < 3; ++k) {
       // Stored in any case, counted where it stands for an edge: as good as random, so no branch.
       edges[count] = face * 4 + k;
@@ -347,7 +347,7 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
 }
 
 void QemSimplifier::refuse(Corner edge) {
-  surface_.next_corner[corner_index(edge)] |= kRefused;
+  surface_.links[edge] |= kRefused;
   surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
   surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
 }
@@ -367,7 +367,7 @@ void QemSimplifier::allow_again_at(std::uint32_t v) {
   surface_.places[v].mark &= ~kTouchesRefused;
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
     for (const Corner half_edge : {c, previous_in_face(c)}) {
-      std::uint32_t& flags = surface_.next_corner[corner_index(half_edge)];
+      std::uint32_t& flags = surface_.links[half_edge];
       if ((flags & kRefused) == 0) continue;
       flags &= ~kRefused;
       push_edge(half_edge);

@@ -7,15 +7,15 @@ std::uint32_t link_corners(Surface& surface) {
   std::uint32_t live = 0;
   for (std::uint32_t face = surface.face_count; face-- > 0;) {
     const Corner corner = face * 4;
+    surface.set_facing(corner, PackedNormal{0});
     const std::uint32_t v[3] = {surface.vertex_at(corner), surface.vertex_at(corner + 1), surface.vertex_at(corner + 2)};
-    const std::size_t i = corner_index(corner);
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-      surface.indices[i] = kDeadFace;
-      for (std::size_t k = 0; k < 3; ++k) surface.next_corner[i + k] = kNoCorner;
+      surface.indices[corner_index(corner)] = kDeadFace;
+      for (Corner c = corner; c < corner + 3; ++c) surface.links[c] = kNoCorner;
       continue;
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      surface.next_corner[i + k] = surface.vertices[v[k]].first_corner;
+      surface.links[corner + k] = surface.vertices[v[k]].first_corner;
       surface.vertices[v[k]].first_corner = corner + k;
     }
     ++live;
@@ -31,7 +31,7 @@ void unlink_corner(Surface& surface, std::uint32_t v, Corner c) {
     return;
   }
   while (surface.next_corner_of(walk) != c) walk = surface.next_corner_of(walk);
-  std::uint32_t& link = surface.next_corner[corner_index(walk)];
+  std::uint32_t& link = surface.links[walk];
   link = (link & ~kCornerMask) | after;
 }
 

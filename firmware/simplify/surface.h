@@ -1,7 +1,7 @@
 // Connectivity of a triangle mesh while edges collapse: every vertex knows the corners of the faces around it.
 //
 // A corner is 4 * face + k, k = 0..2 (the code never divides by three). The corners of a vertex form a list through
-// `next_corner`, in no geometric order, so that any input has a sound structure: open borders, edges of three or more
+// `links`, in no geometric order, so that any input has a sound structure: open borders, edges of three or more
 // faces, fans that touch in a point, faces turned the other way. Merging two vertices joins two lists.
 //
 // Corner k also stands for the half-edge from vertex k to vertex k + 1 of its face. Of all the half-edges of an edge
@@ -24,8 +24,8 @@ using Corner = std::uint32_t;
 
 inline constexpr Corner kCornerMask = 0x3FFFFFFFu;  // bits 29-0 of a link
 inline constexpr Corner kNoCorner = kCornerMask;    // ends a list
-inline constexpr std::uint32_t kRepresentative = 1u << 30;  // in next_corner: this half-edge stands for its edge
-inline constexpr std::uint32_t kRefused = 1u << 31;  // in next_corner: its collapse was refused and nothing near has changed
+inline constexpr std::uint32_t kRepresentative = 1u << 30;  // in links: this half-edge stands for its edge
+inline constexpr std::uint32_t kRefused = 1u << 31;  // in links: its collapse was refused and nothing near has changed
 inline constexpr std::uint32_t kTouchesRefused = 1u << 31;  // in Place::mark: an edge here may be marked kRefused
 inline constexpr std::uint32_t kSingular = 1u << 30;  // in Place::mark: an edge here has not two faces that run opposite ways
 inline constexpr std::uint32_t kPlaceFlags = kTouchesRefused | kSingular;
@@ -55,7 +55,7 @@ static_assert(sizeof(Vertex) == 44);
 struct Surface {
   Place* places = nullptr;
   std::uint32_t* indices = nullptr;     // 3 per face: wedges
-  std::uint32_t* next_corner = nullptr; // 3 per face: link and flags
+  std::uint32_t* links = nullptr;       // 4 per face: by corner, the link and flags; then facing()
   Vertex* vertices = nullptr;
   const std::uint32_t* vertex_of_wedge = nullptr;  // null where every wedge is its own vertex
   std::uint32_t vertex_count = 0;
@@ -67,7 +67,10 @@ struct Surface {
   }
   Vec3 position(std::uint32_t v) const { return places[v].position; }
   Corner first_corner(std::uint32_t v) const { return vertices[v].first_corner; }
-  Corner next_corner_of(Corner c) const { return next_corner[corner_index(c)] & kCornerMask; }
+  Corner next_corner_of(Corner c) const { return links[c] & kCornerMask; }
+  /// Where the face of corner `c` looked before anything was collapsed; bits 0 where it had no area.
+  PackedNormal facing(Corner c) const { return {links[c | 3]}; }
+  void set_facing(Corner c, PackedNormal normal) { links[c | 3] = normal.bits; }
   bool is_dead(std::uint32_t face) const { return indices[std::size_t{face} * 3] == kDeadFace; }
 };
 

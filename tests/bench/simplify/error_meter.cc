@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace usuzumi::bench {
 namespace {
@@ -191,22 +193,67 @@ SurfaceError measure_error(const testing::Mesh& a, const testing::Mesh& b, std::
   return error;
 }
 
+void paint_parts(testing::Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const std::uint32_t a = root(mesh.indices[i]), b = root(mesh.indices[i / 3 * 3]);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  mesh.colours.resize(mesh.positions.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) mesh.colours[v].bits = root(v);
+}
+
+namespace {
+
+// The faces of one colour, to look for neighbours in.
+struct Part {
+  testing::Mesh mesh;
+  SurfaceIndex index;
+  explicit Part(testing::Mesh part) : mesh(std::move(part)), index(mesh) {}
+};
+
+std::uint32_t colour_of(const testing::Mesh& mesh, std::size_t face) {
+  return mesh.colours.empty() ? 0 : mesh.colours[mesh.indices[face * 3]].bits;
+}
+
+std::map<std::uint32_t, Part> parts_by_colour(const testing::Mesh& mesh) {
+  std::map<std::uint32_t, testing::Mesh> meshes;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    testing::Mesh& part = meshes[colour_of(mesh, f)];
+    for (std::size_t i = f * 3; i < f * 3 + 3; ++i) {
+      part.indices.push_back(static_cast<std::uint32_t>(part.positions.size()));
+      part.positions.push_back(mesh.positions[mesh.indices[i]]);
+    }
+  }
+  std::map<std::uint32_t, Part> parts;
+  for (auto& [colour, part] : meshes) parts.try_emplace(colour, std::move(part));
+  return parts;
+}
+
+bool agrees_with(const Part& part, const std::array<Point, 3>& face, double tolerance) {
+  const Point normal = area_vector(face), centroid = (face[0] + face[1] + face[2]) * (1.0 / 3);
+  bool agrees = false;
+  for (const Point p : {centroid, (centroid + face[0]) * 0.5, (centroid + face[1]) * 0.5, (centroid + face[2]) * 0.5}) {
+    const double reach = std::sqrt(part.index.nearest(p).squared_distance) + tolerance;
+    part.index.within(p, reach, [&](std::uint32_t f) { agrees = agrees || dot(area_vector(corners_of(part.mesh, f)), normal) > 0; });
+  }
+  return agrees;
+}
+
+}  // namespace
+
 std::size_t count_flipped_faces(const testing::Mesh& original, const testing::Mesh& thinned, double tolerance) {
-  const SurfaceIndex index(original);
-  std::vector<Point> normals;
-  for (std::size_t f = 0; f < original.face_count(); ++f) normals.push_back(area_vector(corners_of(original, f)));
+  const std::map<std::uint32_t, Part> parts = parts_by_colour(original);
   std::size_t flipped = 0;
   for (std::size_t f = 0; f < thinned.face_count(); ++f) {
-    const auto t = corners_of(thinned, f);
-    const Point normal = area_vector(t);
-    if (!(dot(normal, normal) > 0)) continue;
-    const Point centroid = (t[0] + t[1] + t[2]) * (1.0 / 3);
-    bool agrees = false;
-    for (const Point p : {centroid, (centroid + t[0]) * 0.5, (centroid + t[1]) * 0.5, (centroid + t[2]) * 0.5}) {
-      const double reach = std::sqrt(index.nearest(p).squared_distance) + tolerance;
-      index.within(p, reach, [&](std::uint32_t face) { agrees = agrees || dot(normals[face], normal) > 0; });
-    }
-    if (!agrees) ++flipped;
+    const auto face = corners_of(thinned, f);
+    const Point normal = area_vector(face);
+    if (dot(normal, normal) > 0 && !agrees_with(parts.at(colour_of(thinned, f)), face, tolerance)) ++flipped;
   }
   return flipped;
 }

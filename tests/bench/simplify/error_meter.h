@@ -81,9 +81,14 @@ struct SurfaceError {
 SurfaceError measure_error(const testing::Mesh& a, const testing::Mesh& b, std::size_t samples = 200000,
                            std::uint64_t seed = 1);
 
+/// Gives every part its own colour; a part is what shared vertices hold together. Thinning carries colours along, and joins
+/// no parts, so that the colour still tells which part a thinned face is of.
+void paint_parts(testing::Mesh& mesh);
+
 /// Faces of `thinned` that look the wrong way: at its centroid and at three points half-way from there to its corners,
 /// every face of `original` that is no further than the nearest plus `tolerance` has a normal more than 90 degrees from
-/// its own. Faces without area are not counted.
+/// its own. Only faces of the same colour are looked at: a shaft says nothing about the bore that it turns in. Faces
+/// without area are not counted.
 std::size_t count_flipped_faces(const testing::Mesh& original, const testing::Mesh& thinned, double tolerance);
 
 }  // namespace usuzumi::bench

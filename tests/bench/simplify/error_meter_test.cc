@@ -111,5 +111,33 @@ TEST(FlippedFaces, AreCountedAndSoundOnesAreNot) {
   EXPECT_EQ(count_flipped_faces(sphere, coarse, 0.01), 2u);
 }
 
+// A bore that was thinned to a square lies within the shaft that turns in it; the shaft looks the other way.
+TEST(FlippedFaces, AreLookedForInTheirOwnPartOnly) {
+  const auto add_tube = [](Mesh& mesh, int sides, float radius, bool outwards) {
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int i = 0; i < sides; ++i) {
+      const float angle = static_cast<float>(i) * 6.2831853f / static_cast<float>(sides);
+      for (const float z : {0.0f, 4.0f}) mesh.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+    for (int i = 0; i < sides; ++i) {
+      const std::uint32_t a = base + 2 * static_cast<std::uint32_t>(i), b = base + 2 * static_cast<std::uint32_t>((i + 1) % sides);
+      if (outwards) mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
+      else mesh.indices.insert(mesh.indices.end(), {a, b + 1, b, a, a + 1, b + 1});
+    }
+  };
+  Mesh original, thinned;
+  add_tube(original, 48, 1.0f, true);
+  add_tube(original, 48, 1.01f, false);
+  add_tube(thinned, 48, 1.0f, true);
+  add_tube(thinned, 4, 1.01f, false);
+  EXPECT_GT(count_flipped_faces(original, thinned, 0.001), 0u) << "without colours the shaft is what is nearest";
+  paint_parts(original);
+  paint_parts(thinned);
+  std::set<std::uint32_t> parts;
+  for (const Rgba8 colour : original.colours) parts.insert(colour.bits);
+  EXPECT_EQ(parts.size(), 2u);
+  EXPECT_EQ(count_flipped_faces(original, thinned, 0.001), 0u);  // both are painted by their lowest vertices, 0 and 96
+}
+
 }  // namespace
 }  // namespace usuzumi::bench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tests/firmware/simplify/simplify_fixture.h"
 
@@ -51,6 +52,39 @@ TEST(QemShape, RegionsOfALargeSphereAreThinnedAlike) {
       ++faces[(middle.x > 0 ? 1 : 0) + (middle.y > 0 ? 2 : 0) + (middle.z > 0 ? 4 : 0)];
     }
     for (const std::size_t in_octant : faces) EXPECT_NEAR(static_cast<double>(in_octant), target / 8.0, target / 8.0 * 0.1) << percent;
+  }
+}
+
+// A face that turns a little in each of many collapses may end up looking the other way. Here every face has wedges and a
+// colour of its own, which no collapse mixes with another's, so that what is left can be told from what it was.
+TEST(QemShape, NoFaceEndsUpLookingToWhereItsBackWas) {
+  const Mesh sphere = icosphere(5);
+  Mesh rough;  // up to six edges' lengths up and down
+  std::vector<Vec3> normals;
+  const auto dented = [&](std::uint32_t v) {
+    const std::uint32_t noise = (v * 2654435761u) ^ (v * 40503u << 7);
+    return sphere.positions[v] * (1.0f + 0.2f * static_cast<float>(noise >> 8) * 0x1p-24f);
+  };
+  for (std::size_t i = 0; i < sphere.indices.size(); i += 3) {
+    const Vec3 a = dented(sphere.indices[i]), b = dented(sphere.indices[i + 1]), c = dented(sphere.indices[i + 2]);
+    normals.push_back(cross(b - a, c - a));
+    for (const Vec3 p : {a, b, c}) {
+      rough.indices.push_back(static_cast<std::uint32_t>(rough.positions.size()));
+      rough.positions.push_back(p);
+      rough.colours.push_back({static_cast<std::uint32_t>(i / 3)});
+    }
+  }
+  for (const std::uint32_t target : {10000u, 4000u, 1000u}) {
+    const Mesh thinned = thin(rough, target).mesh;
+    ASSERT_LE(thinned.face_count(), target);
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i < thinned.indices.size(); i += 3) {
+      const Vec3 a = thinned.positions[thinned.indices[i]], b = thinned.positions[thinned.indices[i + 1]], c = thinned.positions[thinned.indices[i + 2]];
+      const Vec3 now = cross(b - a, c - a), before = normals[thinned.colours[thinned.indices[i]].bits];
+      // What the simplifier remembers of a face's side is good to a tenth of a degree.
+      if (dot(now, before) < -0.01f * length(now) * length(before)) ++turned;
+    }
+    EXPECT_EQ(turned, 0u) << "at " << target;
   }
 }
 
