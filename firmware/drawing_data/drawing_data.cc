@@ -307,4 +307,17 @@ void MeshView::face(std::uint32_t f, std::uint32_t out[3]) const {
   }
 }
 
+bool MeshView::proper_face(std::uint32_t f, std::uint32_t out[3]) const {
+  face(f, out);
+  const Vec3 &a = positions[out[0]], &b = positions[out[1]], &c = positions[out[2]];
+  return a != b && b != c && c != a;
+}
+
+std::uint32_t MeshView::proper_face_count() const {
+  std::uint32_t count = 0, corners[3];
+  for (std::uint32_t f = 0; f < face_count(); ++f)
+    if (proper_face(f, corners)) ++count;
+  return count;
+}
+
 }  // namespace usuzumi::firmware

@@ -35,9 +35,15 @@ struct MeshView {
 
   bool telltale() const { return (flags & format::kFlagTelltale) != 0; }
   bool two_sided() const { return (flags & format::kFlagTwoSided) != 0; }
+  /// Faces as the topology counts them, the joins between the runs of a strip included.
   std::uint32_t face_count() const;
   /// Vertex numbers of face f < face_count(), wound as drawn: odd faces of a strip have their first two swapped.
   void face(std::uint32_t f, std::uint32_t out[3]) const;
+  /// The same; false where two corners stand at one place. A join repeats a place, not a vertex number, in data without
+  /// indices; such a face draws nothing, and whoever thins or counts faces leaves it out.
+  bool proper_face(std::uint32_t f, std::uint32_t out[3]) const;
+  /// Faces with their corners at three places. Looks at every face.
+  std::uint32_t proper_face_count() const;
 };
 
 class DrawingData {

@@ -66,36 +66,34 @@ CopyMesh described(const MeshView& mesh) {
   return copy;
 }
 
-/// Writes the mesh's faces as a triangle list; faces that use a vertex twice (the joins of strips) are left out.
-std::uint32_t expand_faces(const MeshView& mesh, std::span<std::uint32_t> indices) {
-  std::uint32_t faces = 0;
+/// Writes the mesh's proper faces as a triangle list, which `indices` have just room for.
+void expand_faces(const MeshView& mesh, std::span<std::uint32_t> indices) {
+  std::size_t used = 0;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     std::uint32_t v[3];
-    mesh.face(f, v);
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) indices[3 * faces + k] = v[k];
-    ++faces;
+    if (!mesh.proper_face(f, v)) continue;
+    for (const std::uint32_t corner : v) indices[used++] = corner;
   }
-  return faces;
 }
 
 /// Appends normals made from the mesh's own faces, where RAM has room to make them; the mesh is drawn unlit otherwise.
-std::uint32_t append_made_normals(const MeshView& mesh, BlockWriter& block) {
+std::uint32_t append_made_normals(const MeshView& mesh, std::uint32_t faces, BlockWriter& block) {
   Arena scratch(block.rest());
   const auto normals = scratch.allocate<PackedNormal>(mesh.positions.size());
-  const auto indices = scratch.allocate<std::uint32_t>(std::size_t{3} * mesh.face_count());
+  const auto indices = scratch.allocate<std::uint32_t>(std::size_t{3} * faces);
   if (normals.empty() || indices.empty()) return kAbsent;
-  const std::uint32_t faces = expand_faces(mesh, indices);
-  if (!make_smooth_normals(mesh.positions, indices.first(std::size_t{3} * faces), normals, scratch)) return kAbsent;
+  expand_faces(mesh, indices);
+  if (!make_smooth_normals(mesh.positions, indices, normals, scratch)) return kAbsent;
   return block.append(std::span<const PackedNormal>(normals));
 }
 
 /// Level 1: the mesh as it stands in ROM.
-bool copy_as_is(const MeshView& mesh, RamCopy& copy, Clock& clock) {
+bool copy_as_is(const MeshView& mesh, std::uint32_t faces, RamCopy& copy, Clock& clock) {
   BlockWriter block(copy.free_memory());
   CopyMesh out = described(mesh);
   out.topology = engine_topology(mesh.topology);
   out.vertex_count = count_of(mesh);
+  out.faces = faces;
   block.append(mesh.positions);
   out.normal_offset = block.append(mesh.normals);
   out.colour_offset = block.append(mesh.colours);
@@ -105,7 +103,8 @@ bool copy_as_is(const MeshView& mesh, RamCopy& copy, Clock& clock) {
     out.index_offset = block.append(mesh.indices);
     if (out.index_offset == kAbsent) out.index_offset = 0;  // no faces: the empty stream may stand anywhere
   }
-  if (!block.full() && mesh.normals.empty() && mesh.face_count() > 0) out.normal_offset = append_made_normals(mesh, block);
+  if (!block.full() && mesh.normals.empty() && faces > 0)
+    out.normal_offset = append_made_normals(mesh, faces, block);
   if (block.full()) return false;
   clock.charge(CpuWork::kVertexCopied, out.vertex_count);
   clock.charge(CpuWork::kIndexCopied, out.index_count);
@@ -190,9 +189,9 @@ struct Unpacked {
   bool fits = false;
 };
 
-Unpacked unpack_mesh(const MeshView& mesh, Arena& arena) {
+Unpacked unpack_mesh(const MeshView& mesh, std::uint32_t faces, Arena& arena) {
   Unpacked u;
-  const std::size_t index_count = std::size_t{3} * mesh.face_count();
+  const std::size_t index_count = std::size_t{3} * faces;
   u.work.positions = arena.allocate<Vec3>(mesh.positions.size());
   u.normals = arena.allocate<PackedNormal>(mesh.positions.size());
   u.work.colours = arena.allocate<Rgba8>(mesh.colours.size());
@@ -208,8 +207,8 @@ Unpacked unpack_mesh(const MeshView& mesh, Arena& arena) {
   fill(u.work.colours, mesh.colours);
   if (!mesh.normals.empty()) u.work.normals = u.normals;
   u.work.vertex_count = count_of(mesh);
-  u.work.face_count = expand_faces(mesh, u.work.indices);
-  u.work.indices = u.work.indices.first(std::size_t{3} * u.work.face_count);
+  u.work.face_count = faces;
+  expand_faces(mesh, u.work.indices);
   return u;
 }
 
@@ -221,6 +220,7 @@ void add_collapsed(const MeshView& mesh, const WorkingMesh& work, RamCopy& copy)
   out.topology = command::Topology::kTriangles;
   out.vertex_count = work.vertex_count;
   out.index_count = 3 * work.face_count;
+  out.faces = work.face_count;
   const auto append_left = [&](auto stream) {
     return block.append(std::span<const typename decltype(stream)::element_type>(stream.first(stream.empty() ? 0 : work.vertex_count)));
   };
@@ -236,16 +236,17 @@ void add_collapsed(const MeshView& mesh, const WorkingMesh& work, RamCopy& copy)
 }
 
 /// Level 3, at the start of the free memory with the simplifier's scratch behind it.
-bool copy_collapsed(const MeshView& mesh, const Decision& decision, RamCopy& copy, Clock& clock, BuildReport& report) {
+bool copy_collapsed(const MeshView& mesh, std::uint32_t faces, const Decision& decision, RamCopy& copy, Clock& clock,
+                    BuildReport& report) {
   Arena arena(copy.free_memory());
-  Unpacked u = unpack_mesh(mesh, arena);
+  Unpacked u = unpack_mesh(mesh, faces, arena);
   if (!u.fits) return false;
   const auto outcome = simplify_qem(u.work, {decision.target_faces, decision.placement}, arena);
   if (!outcome.ok()) return false;
   report.outcome = outcome->stop == StopReason::kQuotaReached ? BuildOutcome::kBuilt : BuildOutcome::kQuotaNotReached;
   report.max_error = outcome->max_error;
   clock.charge(CpuWork::kVertexCopied, mesh.positions.size());
-  clock.charge(CpuWork::kConnectivityBuilt, mesh.face_count());
+  clock.charge(CpuWork::kConnectivityBuilt, faces);
   clock.charge(CpuWork::kEdgeCosted, outcome->work.edges_costed);
   clock.charge(CpuWork::kQueueOperation, outcome->work.queue_operations);
   clock.charge(CpuWork::kEdgeCollapsed, outcome->work.collapses);
@@ -262,7 +263,8 @@ bool copy_collapsed(const MeshView& mesh, const Decision& decision, RamCopy& cop
 
 }  // namespace
 
-BuildReport build_mesh(const MeshView& mesh, const Decision& decision, RamCopy& copy, Clock& clock) {
+BuildReport build_mesh(const MeshView& mesh, std::uint32_t faces, const Decision& decision, RamCopy& copy,
+                       Clock& clock) {
   BuildReport report;
   switch (decision.action) {
     case Action::kDelete: return report;
@@ -271,22 +273,22 @@ BuildReport build_mesh(const MeshView& mesh, const Decision& decision, RamCopy& 
       if (!keep_vertices(mesh, decision.action, copy, clock)) report.outcome = BuildOutcome::kDropped;
       return report;
     case Action::kCollapse:
-      if (decision.target_faces < mesh.face_count()) {
-        if (copy_collapsed(mesh, decision, copy, clock, report)) return report;
+      if (decision.target_faces < faces) {
+        if (copy_collapsed(mesh, faces, decision, copy, clock, report)) return report;
         report.outcome = BuildOutcome::kUnthinned;
       }
       break;
     case Action::kKeep: break;
   }
-  if (!copy_as_is(mesh, copy, clock)) report.outcome = BuildOutcome::kDropped;
+  if (!copy_as_is(mesh, faces, copy, clock)) report.outcome = BuildOutcome::kDropped;
   return report;
 }
 
-std::uint64_t working_bytes(const MeshView& mesh, const Decision& decision) {
-  const std::uint64_t vertices = mesh.positions.size(), faces = mesh.face_count();
+std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Decision& decision) {
+  const std::uint64_t vertices = mesh.positions.size();
   const std::uint64_t as_is = vertices * (sizeof(Vec3) + sizeof(PackedNormal) + sizeof(Rgba8)) + mesh.indices.size();
   if (decision.action != Action::kCollapse) return as_is;
-  return as_is + faces * 12 + qem_scratch_bytes(static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(faces));
+  return as_is + std::uint64_t{faces} * 12 + qem_scratch_bytes(static_cast<std::uint32_t>(vertices), faces);
 }
 
 }  // namespace usuzumi::firmware

@@ -24,10 +24,12 @@ struct BuildReport {
   float max_error = 0;  // model units, collapsed meshes only
 };
 
-/// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`.
-BuildReport build_mesh(const MeshView& mesh, const Decision& decision, RamCopy& copy, Clock& clock);
+/// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`. `faces` is
+/// the mesh's proper_face_count(), here and below.
+BuildReport build_mesh(const MeshView& mesh, std::uint32_t faces, const Decision& decision, RamCopy& copy,
+                       Clock& clock);
 
 /// Bytes that building would need at most, the simplifier's scratch included: what the order of building goes by.
-std::uint64_t working_bytes(const MeshView& mesh, const Decision& decision);
+std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Decision& decision);
 
 }  // namespace usuzumi::firmware

@@ -44,7 +44,7 @@ Decider::Decider(const ThinningSettings& settings, const LevelTotals& totals, co
   collapse_draw_ = draw_of(settings.collapse_policy, totals.meshes[static_cast<std::size_t>(Level::kCollapse)]);
 }
 
-Decision Decider::decide(const MeshView& mesh) {
+Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
   const auto keep = [](Reason reason) { return Decision{Action::kKeep, reason, 0, Placement::kOptimal}; };
   // Every mesh of a level takes its turn in that level's draw, so that one mesh's area does not shift the others' luck.
   const bool delete_taken = mesh.level == Level::kDelete && policy_takes(settings_.delete_policy, mesh, delete_draw_);
@@ -61,7 +61,7 @@ Decision Decider::decide(const MeshView& mesh) {
     case Level::kCollapse:
       if (!collapse_taken) return keep(Reason::kNotChosen);
       if (above_area(&settings_.collapse_policy, mesh)) return keep(Reason::kAboveArea);
-      return {Action::kCollapse, Reason::kAuthorLevel, target_faces(mesh), settings_.placement};
+      return {Action::kCollapse, Reason::kAuthorLevel, target_faces(mesh, faces), settings_.placement};
     default:  // point and line
       if (above_area(nullptr, mesh)) return keep(Reason::kAboveArea);
       return {mesh.level == Level::kPoint ? Action::kPoint : Action::kLine, Reason::kAuthorLevel, 0, Placement::kOptimal};
@@ -87,8 +87,7 @@ bool Decider::above_area(const Policy* policy, const MeshView& mesh) {
   return screen_area_px(mesh, view_, threshold, faces_measured_) > threshold;
 }
 
-std::uint32_t Decider::target_faces(const MeshView& mesh) const {
-  const std::uint64_t faces = mesh.face_count();
+std::uint32_t Decider::target_faces(const MeshView& mesh, std::uint64_t faces) const {
   if (settings_.quota.kind == format::QuotaKind::kFaces)
     return totals_.collapse_faces == 0 ? 0 : static_cast<std::uint32_t>(settings_.quota.value * faces / totals_.collapse_faces);
   const bool from_settings = settings_.quota.kind != format::QuotaKind::kNone;

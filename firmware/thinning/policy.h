@@ -71,14 +71,15 @@ struct Decision {
 /// Counts over the drawing data that policies share among meshes.
 struct LevelTotals {
   std::uint32_t meshes[kLevelCount] = {};
-  std::uint64_t collapse_faces = 0;  // faces of all level-3 meshes
+  std::uint64_t collapse_faces = 0;  // proper faces of all level-3 meshes
 };
 
 /// Decides mesh by mesh, in rising order of number: a random subset is drawn as the meshes go by.
 class Decider {
  public:
   Decider(const ThinningSettings& settings, const LevelTotals& totals, const View& view);
-  Decision decide(const MeshView& mesh);
+  /// `faces` is the mesh's proper_face_count().
+  Decision decide(const MeshView& mesh, std::uint32_t faces);
 
   std::uint64_t faces_measured() const { return faces_measured_; }
 
@@ -92,7 +93,7 @@ class Decider {
 
   bool policy_takes(const Policy& policy, const MeshView& mesh, Draw& draw);
   bool above_area(const Policy* policy, const MeshView& mesh);
-  std::uint32_t target_faces(const MeshView& mesh) const;
+  std::uint32_t target_faces(const MeshView& mesh, std::uint64_t faces) const;
 
   const ThinningSettings& settings_;
   const LevelTotals& totals_;

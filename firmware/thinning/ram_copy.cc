@@ -25,18 +25,6 @@ bool stream_inside(std::uint32_t offset, std::uint64_t bytes, std::uint32_t bloc
 
 }  // namespace
 
-std::uint32_t CopyMesh::face_count() const {
-  const std::uint32_t n = index_format == command::IndexFormat::kNone ? vertex_count : index_count;
-  switch (topology) {
-    case command::Topology::kTriangles: return n / 3;
-    case command::Topology::kTriangleStrip:
-    case command::Topology::kTriangleFan: return n < 3 ? 0 : n - 2;
-    case command::Topology::kPoints:
-    case command::Topology::kLines: break;
-  }
-  return 0;
-}
-
 Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram) {
   *this = {};
   const auto slots = ram.allocate<Slot>(mesh_max);
@@ -54,7 +42,7 @@ Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram) {
 std::uint64_t RamCopy::faces() const {
   std::uint64_t sum = 0;
   for (const Slot& slot : slots_)
-    if (slot.present) sum += slot.mesh.face_count();
+    if (slot.present) sum += slot.mesh.faces;
   return sum;
 }
 

@@ -27,8 +27,7 @@ struct CopyMesh {
   std::uint32_t index_offset = 0xFFFFFFFF;
   Rgba8 base_colour{};
   bool two_sided = true;
-
-  std::uint32_t face_count() const;
+  std::uint32_t faces = 0;  // that draw something: without the joins of a strip
 };
 
 class RamCopy {

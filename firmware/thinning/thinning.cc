@@ -48,8 +48,9 @@ Status Thinning::begin(const DrawingData& data, Arena& ram) {
     states_[n].record_offset = record;
     const MeshView mesh = view_of(n);
     ++totals_.meshes[static_cast<std::size_t>(mesh.level)];
-    faces_in_ += mesh.face_count();
-    if (mesh.level == Level::kCollapse) totals_.collapse_faces += mesh.face_count();
+    const std::uint32_t faces = states_[n].faces = mesh.proper_face_count();
+    faces_in_ += faces;
+    if (mesh.level == Level::kCollapse) totals_.collapse_faces += faces;
   }
   return copy_.begin(data.mesh_max(), ram);
 }
@@ -78,7 +79,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
   bool any = false;
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     MeshState& state = states_[n];
-    const Decision decision = decider.decide(view_of(n));
+    const Decision decision = decider.decide(view_of(n), state.faces);
     state.wanted = !state.known || !state.decision.same_copy(decision);
     state.decision = decision;
     any = any || state.wanted;
@@ -101,19 +102,23 @@ void Thinning::build_wanted(Clock& clock, ThinningReport& report) {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
     if (states_[n].wanted) copy_.drop(n);
   copy_.compact();
+  const auto size_of = [&](const MeshView& mesh) {
+    const MeshState& state = states_[mesh.number];
+    return size_class(working_bytes(mesh, state.faces, state.decision));
+  };
   for (std::uint32_t p = 0; p < kPriorityCount; ++p) {
     std::uint64_t classes = 0;  // bit c: some mesh of this priority is of size class c
     for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
       if (!states_[n].wanted) continue;
       const MeshView mesh = view_of(n);
-      if (priority(mesh) == p) classes |= std::uint64_t{1} << size_class(working_bytes(mesh, states_[n].decision));
+      if (priority(mesh) == p) classes |= std::uint64_t{1} << size_of(mesh);
     }
     for (unsigned c = kSizeClasses; c-- > 0;) {
       if ((classes >> c & 1) == 0) continue;
       for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
         if (!states_[n].wanted) continue;
         const MeshView mesh = view_of(n);
-        if (priority(mesh) == p && size_class(working_bytes(mesh, states_[n].decision)) == c) build_one(mesh, clock, report);
+        if (priority(mesh) == p && size_of(mesh) == c) build_one(mesh, clock, report);
       }
     }
   }
@@ -125,7 +130,7 @@ void Thinning::build_one(const MeshView& mesh, Clock& clock, ThinningReport& rep
   do {
     copy_.drop(mesh.number);  // what a first try left unthinned
     copy_.compact();
-    state.build = build_mesh(mesh, decision, copy_, clock);
+    state.build = build_mesh(mesh, state.faces, decision, copy_, clock);
   } while ((state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned) &&
            make_room(priority(mesh)));
   state.wanted = false;

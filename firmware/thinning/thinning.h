@@ -25,7 +25,7 @@ struct ThinningReport {
   UpdateCause cause = UpdateCause::kFirst;
   std::uint32_t meshes_in = 0;        // MESH_MAX
   std::uint32_t meshes_out = 0;       // NEW_MESH_MAX
-  std::uint64_t faces_in = 0;
+  std::uint64_t faces_in = 0;         // proper ones, as MeshView counts them; so are those of the copy
   std::uint64_t faces_out = 0;        // in the copy
   std::uint32_t meshes_built = 0;     // copied or thinned by this update; the rest was left as it stood
   std::uint32_t meshes_collapsed = 0; // of these, by level 3
@@ -44,6 +44,7 @@ struct MeshState {
   Decision decision;
   BuildReport build;
   std::uint32_t record_offset = 0;
+  std::uint32_t faces = 0;  // proper ones of the mesh in ROM, counted once
   bool wanted = false;  // scratch of an update: to be built
   bool known = false;   // decision and build are those of the copy
 };

@@ -96,14 +96,15 @@ void print_notes(const Model& model) {
   if (model.notes.size() > kMost) fmt::print(stderr, "note: and {} more of this kind\n", model.notes.size() - kMost);
 }
 
-void print_summary(const PackOptions& options, const Model& model, std::size_t bytes) {
+/// Counted in the ROM, not in the model: a bare mesh repeats vertices to stay one strip.
+void print_summary(const PackOptions& options, const firmware::DrawingData& data) {
   std::size_t vertices = 0, faces = 0;
-  for (const Mesh& mesh : model.meshes) {
+  data.for_each_mesh([&](const firmware::MeshView& mesh) {
     vertices += mesh.positions.size();
-    faces += mesh.face_count();
-  }
+    faces += mesh.proper_face_count();
+  });
   fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes\n", options.output,
-             options.bare ? "bare drawing data" : "container", model.meshes.size(), vertices, faces, bytes);
+             options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size());
 }
 
 int pack(const PackOptions& options) {
@@ -125,7 +126,7 @@ int pack(const PackOptions& options) {
         fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
   write_file_atomically(options.output, rom);
   print_notes(model);
-  print_summary(options, model, rom.size());
+  print_summary(options, *opened);
   return exit_status(ExitCode::kOk);
 }
 

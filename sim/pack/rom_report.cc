@@ -59,7 +59,7 @@ json mesh_json(const MeshView& mesh) {
   j["level"] = static_cast<std::uint32_t>(mesh.level);
   j["topology"] = kTopologyNames[static_cast<std::size_t>(mesh.topology)];
   j["vertices"] = mesh.positions.size();
-  j["faces"] = mesh.face_count();
+  j["faces"] = mesh.proper_face_count();
   j["index_bytes"] = mesh.index_bytes;
   if (mesh.quota_kind == format::QuotaKind::kNone) j["face_quota"] = nullptr;
   else if (mesh.quota_kind == format::QuotaKind::kFaces) j["face_quota"] = mesh.quota;
@@ -82,7 +82,7 @@ std::string mesh_line(const MeshView& mesh, std::size_t name_width) {
       "{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:.4g},{:.4g},{:.4g} to "
       "{:.4g},{:.4g},{:.4g}\n",
       mesh.number + 1, mesh.name.empty() ? "-" : mesh.name, name_width, level_label(static_cast<unsigned>(mesh.level)),
-      kTopologyNames[static_cast<std::size_t>(mesh.topology)], mesh.positions.size(), mesh.face_count(),
+      kTopologyNames[static_cast<std::size_t>(mesh.topology)], mesh.positions.size(), mesh.proper_face_count(),
       quota_label(mesh), mesh.area_threshold_px < 0 ? "-" : fmt::format("{:g}", mesh.area_threshold_px), flags,
       mesh.colours.empty() ? colour_label(mesh.base_colour) : "by vertex", box.low.x, box.low.y, box.low.z, box.high.x,
       box.high.y, box.high.z);
@@ -102,7 +102,7 @@ Totals totals_of(const DrawingData& data) {
   Totals t;
   data.for_each_mesh([&](const MeshView& mesh) {
     t.vertices += mesh.positions.size();
-    t.faces += mesh.face_count();
+    t.faces += mesh.proper_face_count();
     t.name_width = std::max(t.name_width, std::min<std::size_t>(mesh.name.size(), 32));
   });
   return t;

@@ -86,7 +86,7 @@ TEST(SceneCommands, DrawEveryMeshOfTheCopyInOrderAfterOneClear) {
   EXPECT_TRUE(recorder.draws[0].has_normals);
   EXPECT_EQ(recorder.draws[1].draw.topology, command::Topology::kTriangles);
   EXPECT_EQ(recorder.draws[1].draw.index_format, command::IndexFormat::kU16) << "indices of a small mesh take two bytes";
-  EXPECT_EQ(recorder.draws[1].draw.count, 3 * bench.copy().mesh(2).face_count());
+  EXPECT_EQ(recorder.draws[1].draw.count, 3 * bench.copy().mesh(2).faces);
   EXPECT_EQ(recorder.draws[1].cull, command::CullMode::kBack);
   EXPECT_EQ(recorder.draws[2].draw.topology, command::Topology::kPoints);
 }

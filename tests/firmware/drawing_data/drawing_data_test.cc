@@ -65,6 +65,25 @@ TEST(BareDrawingData, VertexOrderIsATriangleStripWithAlternatingWinding) {
   EXPECT_EQ((std::vector<std::uint32_t>{f, f + 3}), (std::vector<std::uint32_t>{2, 1, 3}));
 }
 
+TEST(BareDrawingData, AFaceWithTwoCornersAtOnePlaceIsNoProperFace) {
+  // Triangles a b c and d e f in one strip: a b c c d d e f repeats two places; -0 is the same place as 0.
+  TestMesh mesh;
+  const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{3, 0, 0}, d_again{3, -0.0f, 0}, e{4, 0, 0}, f{3, 1, 0};
+  mesh.positions = {a, b, c, c, d, d_again, e, f};
+  const RomImage rom = bare_rom({mesh});
+  const auto data = DrawingData::open(rom.bytes());
+  ASSERT_TRUE(data.ok());
+  const MeshView view = data->mesh(0);
+  EXPECT_EQ(view.face_count(), 6u);
+  EXPECT_EQ(view.proper_face_count(), 2u);
+  std::vector<std::uint32_t> proper;
+  for (std::uint32_t n = 0; n < 6; ++n) {
+    std::uint32_t corners[3];
+    if (view.proper_face(n, corners)) proper.push_back(n);
+  }
+  EXPECT_EQ(proper, (std::vector<std::uint32_t>{0, 5}));
+}
+
 TEST(Container, CarriesWhatThePatentsRecordsHaveNoRoomFor) {
   const RomImage rom = container_rom(two_meshes());
   const auto data = DrawingData::open(rom.bytes());

@@ -54,7 +54,7 @@ TEST(PatentFigure5, Mesh1GoesMesh2StaysMesh3LosesOneVertex) {
   EXPECT_FALSE(bench.copy().present(0));
   EXPECT_EQ(bench.positions(1), (std::vector<Vec3>{{-0.8f, 0.6928f, 0}, {-0.8f, -0.6928f, 0}, {0.6f, 0, 0}}));
   ASSERT_EQ(bench.copy().mesh(2).vertex_count, 9u);
-  EXPECT_EQ(bench.copy().mesh(2).face_count(), 7u);
+  EXPECT_EQ(bench.copy().mesh(2).faces, 7u);
 }
 
 TEST(PatentFigure5, TheLastTwoVerticesBecomeTheirMeanAsPrinted) {

@@ -10,9 +10,11 @@ namespace {
 using firmware::Action;
 using firmware::BuildOutcome;
 using firmware::PolicyKind;
+using firmware::Quota;
 using firmware::Reason;
 using firmware::ThinningSettings;
 using firmware::UpdateCause;
+using testing::bare_rom;
 using testing::container_rom;
 using testing::flat_view;
 using testing::hills;
@@ -26,7 +28,7 @@ TEST(Levels, UnsetAndOneAreKeptWordForWord) {
     ThinningBench bench(container_rom({hills(4, level)}));
     ASSERT_TRUE(bench.update().ok());
     EXPECT_EQ(bench.positions(0), hills(4, level).positions);
-    EXPECT_EQ(bench.copy().mesh(0).face_count(), 32u);
+    EXPECT_EQ(bench.copy().mesh(0).faces, 32u);
     EXPECT_EQ(bench.thinning.state(0).decision.reason, level == 0 ? Reason::kLevelUnset : Reason::kAuthorLevel);
   }
 }
@@ -46,10 +48,10 @@ TEST(Levels, ThreeIsCollapsedToItsQuota) {
   mesh.quota = 250'000;
   ThinningBench bench(container_rom({mesh}));
   ASSERT_TRUE(bench.update().ok());
-  EXPECT_LE(bench.copy().mesh(0).face_count(), 200u);
-  EXPECT_GE(bench.copy().mesh(0).face_count(), 198u) << "one collapse takes at most two faces";
+  EXPECT_LE(bench.copy().mesh(0).faces, 200u);
+  EXPECT_GE(bench.copy().mesh(0).faces, 198u) << "one collapse takes at most two faces";
   EXPECT_EQ(bench.report.faces_in, 800u);
-  EXPECT_EQ(bench.report.faces_out, bench.copy().mesh(0).face_count());
+  EXPECT_EQ(bench.report.faces_out, bench.copy().mesh(0).faces);
   EXPECT_TRUE(bench.copy().sound());
 }
 
@@ -201,8 +203,8 @@ TEST(Quotas, OneBudgetIsSharedByFaceCounts) {
   ASSERT_TRUE(bench.update(settings).ok());
   EXPECT_EQ(bench.thinning.state(0).decision.target_faces, 400u);
   EXPECT_EQ(bench.thinning.state(1).decision.target_faces, 100u);
-  EXPECT_LE(bench.copy().mesh(0).face_count() + bench.copy().mesh(1).face_count(), 500u);
-  EXPECT_EQ(bench.copy().mesh(2).face_count(), 200u) << "level 1 is not touched";
+  EXPECT_LE(bench.copy().mesh(0).faces + bench.copy().mesh(1).faces, 500u);
+  EXPECT_EQ(bench.copy().mesh(2).faces, 200u) << "level 1 is not touched";
 }
 
 TEST(Quotas, AnAuthorsCountHolds) {
@@ -211,7 +213,7 @@ TEST(Quotas, AnAuthorsCountHolds) {
   mesh.quota = 60;
   ThinningBench bench(container_rom({mesh}));
   ASSERT_TRUE(bench.update().ok());
-  EXPECT_LE(bench.copy().mesh(0).face_count(), 60u);
+  EXPECT_LE(bench.copy().mesh(0).faces, 60u);
 }
 
 TEST(Quotas, WhatCannotBeReachedIsReported) {
@@ -224,8 +226,48 @@ TEST(Quotas, WhatCannotBeReachedIsReported) {
   mesh.quota = 2;
   ThinningBench bench(container_rom({mesh}));
   ASSERT_TRUE(bench.update().ok());
-  EXPECT_EQ(bench.copy().mesh(0).face_count(), 4u);
+  EXPECT_EQ(bench.copy().mesh(0).faces, 4u);
   EXPECT_EQ(bench.report.quotas_missed, 1u);
+}
+
+/// The faces of an indexed mesh as one strip that repeats places between them, the way bare data must have them.
+TestMesh as_strip(const TestMesh& mesh) {
+  TestMesh strip;
+  strip.level = mesh.level;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+               &c = mesh.positions[mesh.indices[i + 2]];
+    // Six places for a face, which so is even in the strip and keeps its winding.
+    for (const Vec3& p : {a, a, a, b, c, c}) strip.positions.push_back(p);
+  }
+  return strip;
+}
+
+TEST(Quotas, TheJoinsOfAStripAreNoFaces) {
+  const TestMesh indexed = hills(10, 3), strip = as_strip(indexed);  // 200 faces; as a strip 1198 with the joins
+  for (const Quota quota : {Quota{}, Quota{QuotaKind::kMillionths, 250'000}, Quota{QuotaKind::kFaces, 50}}) {
+    const std::uint32_t target = quota.kind == QuotaKind::kNone ? 100 : 50;
+    ThinningSettings settings;
+    settings.quota = quota;
+    ThinningBench container(container_rom({indexed})), bare(bare_rom({strip}));
+    ASSERT_TRUE(container.update(settings).ok());
+    ASSERT_TRUE(bare.update(settings).ok());
+    EXPECT_EQ(container.thinning.state(0).decision.target_faces, target);
+    EXPECT_EQ(bare.thinning.state(0).decision.target_faces, target);
+    EXPECT_EQ(bare.report.faces_in, 200u);
+    EXPECT_EQ(bare.report.faces_out, container.report.faces_out);
+    EXPECT_LE(bare.report.faces_out, target);
+  }
+}
+
+TEST(Quotas, AStripThatIsKeptHasAsManyFacesAsInRom) {
+  TestMesh strip = as_strip(hills(4, 3));
+  strip.level = 1;
+  ThinningBench bench(bare_rom({strip}));
+  ASSERT_TRUE(bench.update().ok());
+  EXPECT_EQ(bench.report.faces_in, 32u);
+  EXPECT_EQ(bench.report.faces_out, 32u);
+  EXPECT_EQ(bench.positions(0), strip.positions) << "the joins are drawn all the same";
 }
 
 TEST(Reuse, WhatNothingChangedIsNotThinnedAgain) {
@@ -268,10 +310,10 @@ TEST(Reuse, ANewQuotaBuildsTheCollapsedMeshesFromRomAgain) {
   ThinningSettings settings;
   settings.quota = {QuotaKind::kMillionths, 100'000};
   ASSERT_TRUE(bench.update(settings).ok());
-  EXPECT_LE(bench.copy().mesh(0).face_count(), 20u);
+  EXPECT_LE(bench.copy().mesh(0).faces, 20u);
   settings.quota.value = 500'000;
   ASSERT_TRUE(bench.update(settings).ok());
-  EXPECT_GE(bench.copy().mesh(0).face_count(), 98u) << "finer than what stood in RAM: from ROM";
+  EXPECT_GE(bench.copy().mesh(0).faces, 98u) << "finer than what stood in RAM: from ROM";
   EXPECT_EQ(bench.report.meshes_built, 1u);
 }
 
@@ -295,7 +337,7 @@ TEST(Memory, LevelTwoMeshesGoFirstAndLevelOneNever) {
       continue;
     }
     EXPECT_TRUE(status.ok()) << ram;
-    EXPECT_EQ(bench.copy().mesh(2).face_count(), 288u) << "level 1 is whole";
+    EXPECT_EQ(bench.copy().mesh(2).faces, 288u) << "level 1 is whole";
     EXPECT_TRUE(!bench.copy().present(0) || bench.copy().present(1)) << "level 2 must go before level 3; " << ram;
     EXPECT_EQ(bench.report.meshes_dropped, 3 - bench.copy().new_mesh_max()) << ram;
   }

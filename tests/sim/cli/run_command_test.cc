@@ -82,6 +82,21 @@ TEST_F(RunCommand, QuotasAndPoliciesRule) {
   EXPECT_EQ(stats("--policy random:1%")["frames"][0]["faces_thinned"], 800);
 }
 
+TEST_F(RunCommand, BareDrawingDataThinsToTheSameCount) {
+  const Ran packed = usuzumi("pack hills.obj -o bare.rom --bare --default-level 3");
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  ASSERT_EQ(usuzumi("run bare.rom --size 160x96 --stats stats.json").exit_code, 0);
+  const auto frame = json_file("stats.json")["frames"][0];
+  EXPECT_EQ(frame["faces_in"], 800);
+  EXPECT_EQ(frame["faces_thinned"], 400);
+  // What pack says is in the ROM is what inspect finds there.
+  const auto inspected = usuzumi("inspect bare.rom --json").json();
+  EXPECT_EQ(inspected["faces"], 800);
+  EXPECT_GT(inspected["vertices"], 441) << "a strip of more than one run repeats vertices";
+  const std::string counts = ", " + inspected["vertices"].dump() + " vertices, 800 faces";
+  EXPECT_NE(packed.out.find(counts), std::string::npos) << packed.out;
+}
+
 TEST_F(RunCommand, TakesCamerasFromAFile) {
   write("path.json", R"({"frames": [{"eye": [10, 30, 40], "target": [10, 0, 10]}, {"eye": [10, 40, 40], "target": [10, 0, 10], "fov_y_deg": 60}]})");
   const auto report = stats("--frames 3 --camera path.json");
