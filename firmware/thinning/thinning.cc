@@ -65,7 +65,7 @@ Status Thinning::update(const ThinningSettings& settings, const View& view, Cloc
   begun_ = true;
   quota_halvings_ = 0;
   build_wanted(clock, report);
-  while (dropped_any(kCollapsible) && quota_halvings_ < kMaxQuotaHalvings && totals_.collapse_faces > 0) {
+  while (dropped_any(kCollapsible) && can_halve_quotas()) {
     ++quota_halvings_;
     want_collapses();
     build_wanted(clock, report);
@@ -157,6 +157,14 @@ bool Thinning::make_room(Priority below) {
 bool Thinning::dropped_any(Priority up_to) const {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
     if (states_[n].build.outcome == BuildOutcome::kDropped && priority(view_of(n)) <= up_to) return true;
+  return false;
+}
+
+/// Whether another halving would ask some mesh for fewer faces.
+bool Thinning::can_halve_quotas() const {
+  if (quota_halvings_ == kMaxQuotaHalvings) return false;
+  for (const MeshState& state : states_)
+    if (state.decision.action == Action::kCollapse && narrowed(state.decision, quota_halvings_).target_faces > 0) return true;
   return false;
 }
 

@@ -76,6 +76,7 @@ class Thinning {
   void build_one(const MeshView& mesh, Clock& clock, ThinningReport& report);
   bool make_room(Priority below);
   bool dropped_any(Priority up_to) const;
+  bool can_halve_quotas() const;
   void want_collapses();
   Status summarize(ThinningReport& report) const;
 

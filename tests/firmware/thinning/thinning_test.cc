@@ -369,6 +369,32 @@ TEST(Memory, QuotasAreHalvedBeforeACollapsibleMeshIsLeftOut) {
   EXPECT_TRUE(halved) << "no memory size led to coarser meshes that all fit";
 }
 
+TEST(Memory, WhereNothingIsThinnedNoQuotaIsHalvedAndNothingIsBuiltTwice) {
+  // Level-3 meshes that are all kept, two of three in the RAM.
+  const std::vector<TestMesh> meshes(3, hills(12, 3));
+  ThinningSettings off, none_chosen;
+  off.enabled = false;
+  none_chosen.collapse_policy.kind = PolicyKind::kChosen;
+  for (const ThinningSettings& settings : {off, none_chosen}) {
+    ThinningBench bench(container_rom(meshes), 16000);
+    ASSERT_TRUE(bench.update(settings).ok());
+    EXPECT_EQ(bench.report.meshes_dropped, 1u);
+    EXPECT_EQ(bench.report.quota_halvings, 0u);
+    EXPECT_EQ(bench.clock.charged(CpuWork::kVertexCopied), 2u * 13 * 13);
+  }
+}
+
+TEST(Memory, QuotasAreHalvedOnlyWhileTheyCanFall) {
+  TestMesh coarse = hills(12, 3), large = hills(12, 3);
+  coarse.quota_kind = QuotaKind::kFaces;
+  coarse.quota = 2;
+  large.area_threshold_px = 1;  // kept
+  ThinningBench bench(container_rom({coarse, large, large}), 9000);
+  ASSERT_TRUE(bench.update().ok());
+  EXPECT_GT(bench.report.meshes_dropped, 0u);
+  EXPECT_EQ(bench.report.quota_halvings, 2u) << "2, 1, 0";
+}
+
 TEST(Memory, EverySizeOfRamEndsInASoundCopyOrASentence) {
   TestMesh point = square(1, 4), line = square(1, 5);
   for (std::size_t ram = 0; ram < 30000; ram += 60) {
