@@ -369,6 +369,32 @@ TEST(Memory, QuotasAreHalvedBeforeACollapsibleMeshIsLeftOut) {
   EXPECT_TRUE(halved) << "no memory size led to coarser meshes that all fit";
 }
 
+TEST(Memory, LevelTwoGoesBeforeQuotasAreHalvedAndLevelThreeAfterThat) {
+  TestMesh deletable = hills(6, 2);
+  deletable.area_threshold_px = 1;  // large on the screen: to be drawn
+  std::vector<TestMesh> meshes(30, hills(6, 3));
+  meshes.push_back(deletable);
+  // The largest RAM in which each happens.
+  std::size_t deletable_left_out = 0, halved = 0, collapsible_left_out = 0;
+  for (std::size_t ram = 100000; ram > 10000; ram -= 200) {
+    ThinningBench bench(container_rom(meshes), ram);
+    ASSERT_TRUE(bench.begin_status.ok());
+    ASSERT_TRUE(bench.update().ok());
+    const bool has_deletable = bench.copy().present(30);
+    const std::uint32_t collapsible = bench.copy().new_mesh_max() - (has_deletable ? 1 : 0);
+    if (!has_deletable && deletable_left_out == 0) deletable_left_out = ram;
+    if (bench.report.quota_halvings > 0 && halved == 0) halved = ram;
+    if (collapsible < 30) {
+      if (collapsible_left_out == 0) collapsible_left_out = ram;
+      EXPECT_EQ(bench.report.quota_halvings, 4u) << ram;
+      EXPECT_FALSE(has_deletable) << "as large as a level-3 mesh that was left out; " << ram;
+    }
+  }
+  EXPECT_GT(deletable_left_out, halved);
+  EXPECT_GT(halved, collapsible_left_out);
+  EXPECT_GT(collapsible_left_out, 0u);
+}
+
 TEST(Memory, WhereNothingIsThinnedNoQuotaIsHalvedAndNothingIsBuiltTwice) {
   // Level-3 meshes that are all kept, two of three in the RAM.
   const std::vector<TestMesh> meshes(3, hills(12, 3));
