@@ -244,6 +244,7 @@ bool copy_collapsed(const MeshView& mesh, std::uint32_t faces, const Decision& d
   const auto outcome = simplify_qem(u.work, {decision.target_faces, decision.placement}, arena);
   if (!outcome.ok()) return false;
   report.outcome = outcome->stop == StopReason::kQuotaReached ? BuildOutcome::kBuilt : BuildOutcome::kQuotaNotReached;
+  report.collapsed = true;
   report.max_error = outcome->max_error;
   clock.charge(CpuWork::kVertexCopied, mesh.positions.size());
   clock.charge(CpuWork::kConnectivityBuilt, faces);

@@ -21,7 +21,8 @@ enum class BuildOutcome : std::uint8_t {
 
 struct BuildReport {
   BuildOutcome outcome = BuildOutcome::kBuilt;
-  float max_error = 0;  // model units, collapsed meshes only
+  bool collapsed = false;  // level 3 ran; a mesh within its quota is copied
+  float max_error = 0;     // model units, collapsed meshes only
 };
 
 /// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`. `faces` is

@@ -1,6 +1,7 @@
 // Which meshes are thinned: the policies of JP2015-22462A [0014] and [0015], and the face quota of level 3.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -45,6 +46,7 @@ struct ThinningSettings {
 };
 
 enum class Action : std::uint8_t { kKeep, kDelete, kCollapse, kPoint, kLine };
+inline constexpr std::size_t kActionCount = 5;
 
 /// Why a mesh is treated as it is.
 enum class Reason : std::uint8_t {
@@ -55,6 +57,7 @@ enum class Reason : std::uint8_t {
   kNotChosen,        // the policy passed it over
   kTelltale,         // level 2, but a telltale is never deleted
 };
+inline constexpr std::size_t kReasonCount = 6;
 
 struct Decision {
   Action action = Action::kKeep;

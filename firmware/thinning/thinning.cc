@@ -64,11 +64,11 @@ Status Thinning::update(const ThinningSettings& settings, const View& view, Cloc
   }
   begun_ = true;
   quota_halvings_ = 0;
-  build_wanted(clock, report);
+  build_wanted(clock);
   while (dropped_any(kCollapsible) && can_halve_quotas()) {
     ++quota_halvings_;
     want_collapses();
-    build_wanted(clock, report);
+    build_wanted(clock);
   }
   return summarize(report);
 }
@@ -82,6 +82,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
     const Decision decision = decider.decide(view_of(n), state.faces);
     state.wanted = !state.known || !state.decision.same_copy(decision);
     state.decision = decision;
+    state.built = false;
     any = any || state.wanted;
   }
   clock.charge(CpuWork::kFaceMeasured, decider.faces_measured());
@@ -98,7 +99,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
 
 /// Builds what is wanted: what must be there first, and within a priority the meshes that need most room to work in
 /// first, while there is most.
-void Thinning::build_wanted(Clock& clock, ThinningReport& report) {
+void Thinning::build_wanted(Clock& clock) {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
     if (states_[n].wanted) copy_.drop(n);
   copy_.compact();
@@ -118,13 +119,13 @@ void Thinning::build_wanted(Clock& clock, ThinningReport& report) {
       for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
         if (!states_[n].wanted) continue;
         const MeshView mesh = view_of(n);
-        if (priority(mesh) == p && size_of(mesh) == c) build_one(mesh, clock, report);
+        if (priority(mesh) == p && size_of(mesh) == c) build_one(mesh, clock);
       }
     }
   }
 }
 
-void Thinning::build_one(const MeshView& mesh, Clock& clock, ThinningReport& report) {
+void Thinning::build_one(const MeshView& mesh, Clock& clock) {
   MeshState& state = states_[mesh.number];
   const Decision decision = narrowed(state.decision, quota_halvings_);
   do {
@@ -134,10 +135,7 @@ void Thinning::build_one(const MeshView& mesh, Clock& clock, ThinningReport& rep
   } while ((state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned) &&
            make_room(priority(mesh)));
   state.wanted = false;
-  state.known = true;
-  ++report.meshes_built;
-  if (decision.action == Action::kCollapse) ++report.meshes_collapsed;
-  if (state.build.max_error > report.max_error) report.max_error = state.build.max_error;
+  state.known = state.built = true;
 }
 
 /// Drops one mesh that counts less than `below`, the last of the least, and has it built again when its turn comes;
@@ -174,7 +172,21 @@ void Thinning::want_collapses() {
     if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped) states_[n].wanted = true;
 }
 
+void Thinning::count_decisions_and_builds(ThinningReport& report) const {
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+    const MeshState& state = states_[n];
+    ++report.actions[static_cast<std::size_t>(state.decision.action)];
+    if (state.decision.action == Action::kKeep) ++report.kept_for[static_cast<std::size_t>(state.decision.reason)];
+    if (!state.built || !copy_.present(n)) continue;
+    ++report.meshes_built;
+    if (!state.build.collapsed) continue;
+    ++report.meshes_collapsed;
+    if (state.build.max_error > report.max_error) report.max_error = state.build.max_error;
+  }
+}
+
 Status Thinning::summarize(ThinningReport& report) const {
+  count_decisions_and_builds(report);
   report.meshes_in = data_->mesh_max();
   report.meshes_out = copy_.new_mesh_max();
   report.faces_in = faces_in_;

@@ -27,7 +27,9 @@ struct ThinningReport {
   std::uint32_t meshes_out = 0;       // NEW_MESH_MAX
   std::uint64_t faces_in = 0;         // proper ones, as MeshView counts them; so are those of the copy
   std::uint64_t faces_out = 0;        // in the copy
-  std::uint32_t meshes_built = 0;     // copied or thinned by this update; the rest was left as it stood
+  std::uint32_t actions[kActionCount] = {};   // how many meshes each Action was decided for
+  std::uint32_t kept_for[kReasonCount] = {};  // those kept, by Reason
+  std::uint32_t meshes_built = 0;     // copied or thinned by this update; the rest of the copy was left as it stood
   std::uint32_t meshes_collapsed = 0; // of these, by level 3
   std::uint32_t quotas_missed = 0;    // in the copy: collapsed as far as their surface allows, above the quota
   std::uint32_t meshes_unthinned = 0; // in the copy as they are because there was no room to thin them
@@ -46,6 +48,7 @@ struct MeshState {
   std::uint32_t record_offset = 0;
   std::uint32_t faces = 0;  // proper ones of the mesh in ROM, counted once
   bool wanted = false;  // scratch of an update: to be built
+  bool built = false;   // by the last update
   bool known = false;   // decision and build are those of the copy
 };
 
@@ -73,12 +76,13 @@ class Thinning {
 
   MeshView view_of(std::uint32_t n) const { return data_->mesh_at(n, states_[n].record_offset); }
   bool decide_all(const ThinningSettings& settings, const View& view, Clock& clock);
-  void build_wanted(Clock& clock, ThinningReport& report);
-  void build_one(const MeshView& mesh, Clock& clock, ThinningReport& report);
+  void build_wanted(Clock& clock);
+  void build_one(const MeshView& mesh, Clock& clock);
   bool make_room(Priority below);
   bool dropped_any(Priority up_to) const;
   bool can_halve_quotas() const;
   void want_collapses();
+  void count_decisions_and_builds(ThinningReport& report) const;
   Status summarize(ThinningReport& report) const;
 
   const DrawingData* data_ = nullptr;

@@ -18,6 +18,24 @@ const char* cause_name(firmware::UpdateCause cause) {
   return "";
 }
 
+/// What was decided for how many meshes, for kept ones why. The numbers add up to meshes_in.
+ordered_json decisions_json(const firmware::ThinningReport& t) {
+  using firmware::Action;
+  using firmware::Reason;
+  const auto decided = [&](Action action) { return t.actions[static_cast<std::size_t>(action)]; };
+  const auto kept = [&](Reason reason) { return t.kept_for[static_cast<std::size_t>(reason)]; };
+  return {{"deleted", decided(Action::kDelete)},
+          {"collapsed", decided(Action::kCollapse)},
+          {"points", decided(Action::kPoint)},
+          {"lines", decided(Action::kLine)},
+          {"kept_by_level", kept(Reason::kAuthorLevel)},
+          {"kept_level_unset", kept(Reason::kLevelUnset)},
+          {"kept_thinning_off", kept(Reason::kThinningOff)},
+          {"kept_above_area", kept(Reason::kAboveArea)},
+          {"kept_not_chosen", kept(Reason::kNotChosen)},
+          {"kept_telltale", kept(Reason::kTelltale)}};
+}
+
 ordered_json frame_json(const FrameRecord& f) {
   const firmware::ThinningReport& t = f.firmware.thinning;
   return {{"frame", f.frame},
@@ -34,6 +52,7 @@ ordered_json frame_json(const FrameRecord& f) {
           {"host_ms", f.host_ms},
           {"thinning",
            {{"cause", cause_name(t.cause)},
+            {"decisions", decisions_json(t)},
             {"meshes_built", t.meshes_built},
             {"meshes_collapsed", t.meshes_collapsed},
             {"quotas_missed", t.quotas_missed},

@@ -317,6 +317,58 @@ TEST(Reuse, ANewQuotaBuildsTheCollapsedMeshesFromRomAgain) {
   EXPECT_EQ(bench.report.meshes_built, 1u);
 }
 
+TEST(Statistics, EveryMeshIsCountedOnceByWhatWasDecidedAndWhy) {
+  TestMesh lamp = square(1, 2), large = square(1, 4);
+  lamp.flags = firmware::format::kFlagTelltale;
+  large.area_threshold_px = 1;
+  const std::vector<TestMesh> meshes{square(1, 0), square(1, 0), square(1, 1),   square(1, 1), square(1, 1), square(1, 2),
+                                     square(1, 2), lamp,         hills(4, 3),    hills(4, 3),  hills(4, 3),  hills(4, 3),
+                                     large,        square(1, 4), square(1, 5)};
+  const std::uint32_t chosen[] = {8, 9, 10};
+  ThinningSettings settings;
+  settings.collapse_policy.kind = PolicyKind::kChosen;
+  settings.collapse_policy.chosen = chosen;
+  ThinningBench bench(container_rom(meshes));
+  for (const bool first : {true, false}) {  // decisions are told in every frame, what was built in its own
+    ASSERT_TRUE(bench.update(settings).ok());
+    const auto decided = [&](Action a) { return bench.report.actions[static_cast<std::size_t>(a)]; };
+    const auto kept = [&](Reason r) { return bench.report.kept_for[static_cast<std::size_t>(r)]; };
+    EXPECT_EQ(decided(Action::kDelete), 2u);
+    EXPECT_EQ(decided(Action::kCollapse), 3u);
+    EXPECT_EQ(decided(Action::kPoint), 1u);
+    EXPECT_EQ(decided(Action::kLine), 1u);
+    EXPECT_EQ(decided(Action::kKeep), 8u);
+    EXPECT_EQ(kept(Reason::kLevelUnset), 2u);
+    EXPECT_EQ(kept(Reason::kAuthorLevel), 3u);
+    EXPECT_EQ(kept(Reason::kTelltale), 1u);
+    EXPECT_EQ(kept(Reason::kNotChosen), 1u);
+    EXPECT_EQ(kept(Reason::kAboveArea), 1u);
+    EXPECT_EQ(kept(Reason::kThinningOff), 0u);
+    EXPECT_EQ(bench.report.meshes_built, first ? 13u : 0u) << "a deleted mesh is not built";
+    EXPECT_EQ(bench.report.meshes_collapsed, first ? 3u : 0u);
+  }
+  settings.enabled = false;
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_EQ(bench.report.kept_for[static_cast<std::size_t>(Reason::kThinningOff)], 10u) << "levels 2 to 5";
+}
+
+TEST(Statistics, AMeshBuiltSeveralTimesForWantOfRoomCountsOnce) {
+  ThinningBench bench(container_rom(std::vector<TestMesh>(30, hills(6, 3))), 20000);
+  ASSERT_TRUE(bench.update().ok());
+  ASSERT_GT(bench.report.quota_halvings, 0u);
+  EXPECT_EQ(bench.report.meshes_built, bench.copy().new_mesh_max());
+}
+
+TEST(Statistics, AMeshWithinItsQuotaIsNotCollapsed) {
+  TestMesh mesh = hills(4, 3);
+  mesh.quota_kind = QuotaKind::kFaces;
+  mesh.quota = 32;
+  ThinningBench bench(container_rom({mesh}));
+  ASSERT_TRUE(bench.update().ok());
+  EXPECT_EQ(bench.report.meshes_built, 1u);
+  EXPECT_EQ(bench.report.meshes_collapsed, 0u);
+}
+
 TEST(Memory, MoreMeshesThanTheTableHasRoomForIsSaidAtOnce) {
   ThinningBench bench(container_rom(std::vector<TestMesh>(100, square(1, 1))), 2000);
   EXPECT_EQ(bench.begin_status.code, StatusCode::kResourceExhausted);

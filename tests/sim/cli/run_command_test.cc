@@ -1,3 +1,4 @@
+#include <map>
 #include <set>
 
 #include "tests/sim/cli/command.h"
@@ -80,6 +81,28 @@ TEST_F(RunCommand, QuotasAndPoliciesRule) {
   EXPECT_EQ(stats("--policy below-area:1")["frames"][0]["faces_thinned"], 800);
   EXPECT_EQ(stats("--policy 3=chosen:hills")["frames"][0]["faces_thinned"], 400);
   EXPECT_EQ(stats("--policy random:1%")["frames"][0]["faces_thinned"], 800);
+}
+
+TEST_F(RunCommand, StatisticsSayWhyAMeshIsKept) {
+  const auto only = [&](const std::string& options, const std::string& expected) {
+    const auto report = stats("--frames 2 " + options);
+    for (const std::size_t frame : {0u, 1u}) {
+      const auto& decisions = report["frames"][frame]["thinning"]["decisions"];
+      EXPECT_EQ(decisions.size(), 10u);
+      for (const auto& [key, count] : decisions.items()) EXPECT_EQ(count, key == expected ? 1 : 0) << options << key;
+    }
+  };
+  only("", "collapsed");
+  only("--thin off", "kept_thinning_off");
+  only("--policy below-area:1", "kept_above_area");
+  only("--policy random:1%", "kept_not_chosen");
+  for (const auto& [level, expected] : std::map<int, std::string>{
+           {0, "kept_level_unset"}, {1, "kept_by_level"}, {2, "deleted"}, {4, "points"}, {5, "lines"}}) {
+    ASSERT_EQ(usuzumi("pack hills.obj -o hills.rom --default-level " + std::to_string(level)).exit_code, 0);
+    only("", expected);
+  }
+  ASSERT_EQ(usuzumi("pack hills.obj -o hills.rom --default-level 2 --telltale hills").exit_code, 0);
+  only("", "kept_telltale");
 }
 
 TEST_F(RunCommand, BareDrawingDataThinsToTheSameCount) {
