@@ -1,5 +1,6 @@
 #include "firmware/drawing_data/drawing_data.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 
@@ -51,10 +52,16 @@ Status check_record(const Words& words, std::uint32_t offset, std::uint32_t end)
   if (vertices > (end - offset - kRecordHeadBytes) / kVertexBytes)
     return damaged("mesh has more vertices than the data has bytes for, at byte offset", offset);
   if (words.at(offset + 4) >= kLevelCount) return damaged("thinning level is not 0 to 5, at byte offset", offset + 4);
+  // Magnitudes as integers: they order as the numbers do, infinity and NaN above all.
+  constexpr auto kMaxMagnitude = std::bit_cast<std::uint32_t>(format::kMaxCoordinate);
   const std::uint32_t first = offset + kRecordHeadBytes;
-  for (std::uint32_t i = 0; i < 3 * vertices; ++i)
-    if ((words.at(first + 4 * i) & 0x7F800000u) == 0x7F800000u)  // infinity or NaN
-      return damaged("coordinate is not a finite number, at byte offset", first + 4 * i);
+  for (std::uint32_t at = first; at < first + kVertexBytes * vertices; at += 4) {
+    const std::uint32_t magnitude = words.at(at) & 0x7FFFFFFFu;
+    if (magnitude <= kMaxMagnitude) continue;
+    return damaged(magnitude < 0x7F800000u ? "coordinate is beyond 1e8 or -1e8, at byte offset"
+                                           : "coordinate is not a finite number, at byte offset",
+                   at);
+  }
   return ok_status();
 }
 

@@ -49,7 +49,7 @@ struct MeshView {
 class DrawingData {
  public:
   DrawingData() = default;
-  /// Checks all of `rom` (4-byte aligned): sizes, offsets, CRC-32, levels, indices, finite coordinates. Bare data is what
+  /// Checks all of `rom` (4-byte aligned): sizes, offsets, CRC-32, levels, indices, coordinates. Bare data is what
   /// does not begin with the container's magic and fills `rom` exactly.
   /// kDataLoss or kUnsupported with the byte offset in `where`.
   static Result<DrawingData> open(std::span<const std::byte> rom);

@@ -16,6 +16,9 @@ inline constexpr std::uint32_t kAbsent = 0xFFFFFFFF;     // an offset or number 
 /// Bounds of the format; a file beyond them is refused.
 inline constexpr std::uint32_t kMaxFileBytes = 0x40000000;
 inline constexpr std::uint32_t kMaxMeshes = 65535;
+/// Largest magnitude of a coordinate. The squared length of a face's area vector, a fourth power of distances up to twice
+/// this, reaches 2e34: finite in single precision, with room for sums of many faces and for the camera's matrices.
+inline constexpr float kMaxCoordinate = 1e8f;
 
 struct Header {                    // 32 bytes at offset 0
   std::uint32_t magic = kMagic;

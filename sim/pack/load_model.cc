@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -82,9 +83,14 @@ void check_mesh(const std::string& file, const Mesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (vertices >= firmware::format::kAbsent || mesh.indices.size() >= firmware::format::kAbsent)
     refuse("too many vertices or faces");
-  for (std::size_t v = 0; v < vertices; ++v)
-    if (!is_finite(mesh.positions[v]))
-      refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Vec3& p = mesh.positions[v];
+    if (!is_finite(p)) refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
+    constexpr float kMost = firmware::format::kMaxCoordinate;
+    if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > kMost)
+      refuse(fmt::format("vertex {} is at {:g} {:g} {:g}, and drawing data hold coordinates up to {:g}", v, p.x, p.y, p.z,
+                         kMost));
+  }
   for (std::uint32_t i : mesh.indices)
     if (i >= vertices) refuse(fmt::format("a face refers to vertex {} of {}", i, vertices));
   if (mesh.indices.size() % 3 != 0 || (!mesh.normals.empty() && mesh.normals.size() != vertices) ||

@@ -13,9 +13,9 @@ struct LoadOptions {
   std::chrono::seconds time_limit{300};  // per file; a file that keeps an importer busy for longer is refused
 };
 
-/// Reads one model: node transforms applied, triangles only, every coordinate finite, every index checked, normals and
-/// unique names everywhere, equal vertices (position, packed normal, colour) welded. The importer runs in a process of
-/// its own, so that a file that crashes it costs one error line. Throws Error kBadInput.
+/// Reads one model: node transforms applied, triangles only, every coordinate within the format's bound, every index
+/// checked, normals and unique names everywhere, equal vertices (position, packed normal, colour) welded. The importer
+/// runs in a process of its own, so that a file that crashes it costs one error line. Throws Error kBadInput.
 Model load_model(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same for several files, joined in order; names unique over all of them.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/rom_builder.h"
@@ -196,6 +197,21 @@ TEST(DrawingDataTest, RefusesCoordinatesThatAreNotNumbers) {
     const auto data = DrawingData::open(rom.bytes());
     EXPECT_EQ(data.status().code, StatusCode::kDataLoss);
     EXPECT_EQ(data.status().where, 12u + 12u + 8u) << "offset of that coordinate";
+  }
+}
+
+TEST(DrawingDataTest, CoordinatesReachToAHundredMillion) {
+  for (const float edge : {1e8f, -1e8f}) {
+    auto meshes = two_meshes();
+    meshes[0].positions[1].y = edge;
+    EXPECT_TRUE(DrawingData::open(bare_rom(meshes).bytes()).ok()) << edge;
+    EXPECT_TRUE(DrawingData::open(container_rom(meshes).bytes()).ok()) << edge;
+    for (const float beyond : {std::nextafter(edge, 2 * edge), edge * 3e30f}) {
+      meshes[0].positions[1].y = beyond;
+      expect_refused(bare_rom(meshes), StatusCode::kDataLoss, "beyond");
+      EXPECT_EQ(DrawingData::open(bare_rom(meshes).bytes()).status().where, 12u + 12u + 4u) << "that coordinate";
+      expect_refused(container_rom(meshes), StatusCode::kDataLoss, "beyond");
+    }
   }
 }
 

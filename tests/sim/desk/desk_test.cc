@@ -138,6 +138,19 @@ TEST(DeskTest, RefusesDrawingDataThatIsNotSound) {
   }
 }
 
+TEST(DeskTest, DrawsAModelAsLargeAndAsSmallAsCoordinatesGo) {
+  for (const float size : {1e8f, 1e-15f}) {
+    auto ground = hills(16, 3);
+    for (Vec3& p : ground.positions) p = {p.x * size, p.y * size, p.z * size};
+    Desk desk(config(), container_rom({ground}).bytes(), "far");
+    const auto shown = desk.draw(request(desk));
+    EXPECT_EQ(shown.record.firmware.thinning.faces_out, 256u) << size;
+    std::size_t model = 0;
+    for (std::uint32_t v : shown.picture.xrgb) model += v != 0x0A141Eu ? 1 : 0;
+    EXPECT_GT(model, shown.picture.xrgb.size() / 8) << size;
+  }
+}
+
 TEST(DeskTest, RefusesAPictureThatVramCannotHold) {
   const RomImage rom = scene_rom();
   DeskConfig c = config(1920, 720);

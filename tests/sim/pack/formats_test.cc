@@ -12,6 +12,7 @@ namespace {
 using sim::load_model;
 using sim::Mesh;
 using sim::Model;
+using ::testing::AllOf;
 using ::testing::Contains;
 using testing::face_corners;
 using testing::faces_of;
@@ -71,15 +72,30 @@ TEST(PlyImport, KeepsVertexColoursAsTheyAre) {
   EXPECT_EQ(mesh.colours, (std::vector{rgba8(255, 0, 0), rgba8(0, 128, 0), rgba8(0, 0, 7)}));
 }
 
+/// A triangle whose third vertex is at (0, y, 0).
+std::string ply_with(const std::string& y) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 " +
+         y + " 0\n3 0 1 2\n";
+}
+
 TEST(PlyImport, CoordinatesThatAreNoNumbersAreRefused) {
   TempFolder folder;
   for (const char* bad : {"nan", "inf", "1e39"}) {
-    const std::string path = folder.write(
-        "a.ply", std::string("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
-                             "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                             "end_header\n0 0 0\n1 0 0\n0 ") +
-                     bad + " 0\n3 0 1 2\n");
+    const std::string path = folder.write("a.ply", ply_with(bad));
     EXPECT_THROW(load_model(path), sim::Error) << bad;
+  }
+}
+
+TEST(PlyImport, ACoordinateThatDrawingDataCannotHoldIsRefusedByItsPlace) {
+  TempFolder folder;
+  EXPECT_NO_THROW(load_model(folder.write("a.ply", ply_with("-1e8"))));
+  for (const char* bad : {"-1.00001e8", "3e38"}) {
+    const std::string path = folder.write("a.ply", ply_with(bad));
+    EXPECT_THAT([&] { load_model(path); },
+                ::testing::ThrowsMessage<sim::Error>(
+                    AllOf(HasSubstr("a.ply"), HasSubstr("vertex 2"), HasSubstr("up to 1e+08"))))
+        << bad;
   }
 }
 
