@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "sim/image/compare.h"
 #include "sim/image/png.h"
@@ -37,39 +38,58 @@ struct FailureFiles {
   std::filesystem::path difference() const { return folder / (scene + ".difference.png"); }
 };
 
-// What is wrong with the golden itself; empty when nothing is.
-std::string golden_fault(const Store& store, const Entry* entry, const std::string& scene, const sim::Image& actual) {
+// What is wrong with the golden itself; empty when nothing is. `expected` is its PNG, where there is one.
+std::string golden_fault(const Entry* entry, const std::filesystem::path& path,
+                         const std::optional<sim::Image>& expected, const sim::Image& actual) {
   if (entry == nullptr) return "has no golden";
-  const std::filesystem::path path = store.picture_path(scene);
-  if (!std::filesystem::exists(path)) return "golden has no PNG: " + path.string();
-  const sim::Image expected = sim::read_png(path);
-  if (sim::picture_crc32(expected) != entry->crc32)
-    return "manifest says CRC-32 " + hex8(entry->crc32) + " but its own PNG has " + hex8(sim::picture_crc32(expected));
-  if (expected.width != actual.width || expected.height != actual.height) return "is " + size_text(actual) + ", golden is " + size_text(expected);
+  if (!expected) return "golden has no PNG: " + path.string();
+  if (sim::picture_crc32(*expected) != entry->crc32)
+    return "manifest says CRC-32 " + hex8(entry->crc32) + " but its own PNG has " + hex8(sim::picture_crc32(*expected));
+  if (expected->width != actual.width || expected->height != actual.height)
+    return "is " + size_text(actual) + ", golden is " + size_text(*expected);
   if (entry->width != actual.width || entry->height != actual.height) return "manifest gives another size than its PNG";
   return {};
 }
 
+// `picture` grown to hold `other` too: where it has no pixel it gets one that differs from the other's.
+sim::Image grown_to_hold(const sim::Image& picture, const sim::Image& other) {
+  sim::Image grown(std::max(picture.width, other.width), std::max(picture.height, other.height));
+  for (std::uint32_t y = 0; y < grown.height; ++y)
+    for (std::uint32_t x = 0; x < grown.width; ++x) {
+      if (x < picture.width && y < picture.height) grown.at(x, y) = picture.at(x, y);
+      else if (x < other.width && y < other.height) grown.at(x, y) = other.at(x, y) ^ 0xFFFFFFu;
+    }
+  return grown;
+}
+
+// Leaves the pictures and says where.
+std::string write_pictures(const FailureFiles& files, const std::optional<sim::Image>& expected,
+                           const sim::Image& actual) {
+  std::filesystem::create_directories(files.folder);
+  sim::write_png(files.actual(), actual);
+  std::string text = "\n  actual:     " + files.actual().string();
+  if (!expected) return text;
+  sim::write_png(files.expected(), *expected);
+  sim::write_png(files.difference(),
+                 sim::difference_image(grown_to_hold(*expected, actual), grown_to_hold(actual, *expected)));
+  return text + "\n  expected:   " + files.expected().string() + "\n  difference: " + files.difference().string();
+}
+
 }  // namespace
 
-Verdict check_golden(const Store& store, const std::string& scene, const sim::Image& actual, const std::filesystem::path& failures) {
-  const FailureFiles files{failures, scene};
-  const Entry* entry = store.find(scene);
-  std::string report = golden_fault(store, entry, scene, actual);
-  std::string pictures = "\n  actual:     " + files.actual().string();
+Verdict check_golden(const Store& store, const std::string& scene, const sim::Image& actual,
+                     const std::filesystem::path& failures) {
+  const std::filesystem::path path = store.picture_path(scene);
+  std::optional<sim::Image> expected;
+  if (std::filesystem::exists(path)) expected = sim::read_png(path);
+  std::string report = golden_fault(store.find(scene), path, expected, actual);
   if (report.empty()) {
-    const sim::Image expected = sim::read_png(store.picture_path(scene));
-    const sim::CompareReport compared = sim::compare_images(expected, actual);
+    const sim::CompareReport compared = sim::compare_images(*expected, actual);
     if (compared.result == sim::CompareResult::kSame) return {};
     report = sim::report_text(compared);
-    std::filesystem::create_directories(failures);
-    sim::write_png(files.expected(), expected);
-    sim::write_png(files.difference(), sim::difference_image(expected, actual));
-    pictures += "\n  expected:   " + files.expected().string() + "\n  difference: " + files.difference().string();
   }
-  std::filesystem::create_directories(failures);
-  sim::write_png(files.actual(), actual);
-  return {false, scene + ": " + report + pictures + "\n  CRC-32 now: " + hex8(sim::picture_crc32(actual)) +
+  return {false, scene + ": " + report + write_pictures({failures, scene}, expected, actual) +
+                     "\n  CRC-32 now: " + hex8(sim::picture_crc32(actual)) +
                      "\n  if the new picture is right: bash tests/golden/approve.sh " + scene};
 }
 

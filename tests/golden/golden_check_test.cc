@@ -97,10 +97,19 @@ TEST_F(GoldenCheck, OneWrongPixelFailsByItsPlaceAndLeavesThreePictures) {
   EXPECT_NE(difference.at(1, 2), difference.at(0, 0));
 }
 
-TEST_F(GoldenCheck, PictureOfAnotherSizeFails) {
+TEST_F(GoldenCheck, PictureOfAnotherSizeFailsAndLeavesThreePicturesToo) {
   Store store(folder_);
-  store.put(entry_of("01-a", sim::Image(4, 3, 1)), sim::Image(4, 3, 1));
-  EXPECT_THAT(check_golden(store, "01-a", sim::Image(3, 4, 1), failures()).report, HasSubstr("is 3 x 4, golden is 4 x 3"));
+  const sim::Image expected(4, 3, 1), actual(3, 4, 1);
+  store.put(entry_of("01-a", expected), expected);
+  EXPECT_THAT(check_golden(store, "01-a", actual, failures()).report, HasSubstr("is 3 x 4, golden is 4 x 3"));
+  EXPECT_EQ(sim::read_png(failures() / "01-a.actual.png"), actual);
+  EXPECT_EQ(sim::read_png(failures() / "01-a.expected.png"), expected);
+  const sim::Image difference = sim::read_png(failures() / "01-a.difference.png");
+  ASSERT_EQ(difference.width, 4u);
+  ASSERT_EQ(difference.height, 4u);
+  EXPECT_EQ(difference.at(2, 2), difference.at(0, 0)) << "in both, and the same";
+  EXPECT_NE(difference.at(3, 0), difference.at(0, 0)) << "expected only";
+  EXPECT_NE(difference.at(0, 3), difference.at(0, 0)) << "came unexpected";
 }
 
 TEST_F(GoldenCheck, ManifestLineThatCannotBeReadIsNamed) {
