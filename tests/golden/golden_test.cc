@@ -10,6 +10,7 @@
 #include "sim/image/png.h"
 #include "tests/golden/golden_check.h"
 #include "tests/golden/golden_store.h"
+#include "tests/golden/panel_route.h"
 #include "tests/support/scene.h"
 #include "tests/support/scene_engines.h"
 
@@ -77,6 +78,16 @@ TEST_P(GoldenScene, EveryRouteGivesTheSameBytes) {
   }
   scenes::SoftEngineKit cramped(1, nullptr, gfx::SoftEngine::minimum_work_bytes(GetParam().target.width, GetParam().target.height));
   expect_same_bytes(first, draw_well(GetParam(), cramped.engine()), "least working memory");
+}
+
+TEST_P(GoldenScene, PanelShowsTheGolden) {
+  const PanelShot shot = show_on_panel(GetParam().target, draw_well(GetParam(), soft_engine()));
+  ASSERT_TRUE(shot.status.ok()) << shot.status.message;
+  EXPECT_FALSE(shot.faults);
+  const Entry* entry = source_store().find(GetParam().name);
+  ASSERT_NE(entry, nullptr);
+  EXPECT_EQ(sim::picture_crc32(shot.picture), entry->crc32);
+  EXPECT_EQ(shot.signature_crc, shot.panel_crc) << "what was sent and what arrived";
 }
 
 TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
