@@ -140,7 +140,8 @@ Vec3 mean(std::span<const Vec3> positions) {
 }
 
 /// Levels 4 and 5 ([0023]): the vertex nearest to the middle as a point; the one farthest from the middle and the one
-/// farthest from that as a line, which lies along the mesh's length.
+/// farthest from that as a line, which lies along the mesh's length. Without normals, so that no light falls on them: a
+/// point has no facing, and the chance one of its vertex would leave the mark dark or bright as the camera goes round.
 bool keep_vertices(const MeshView& mesh, Action action, RamCopy& copy, Clock& clock) {
   std::uint32_t kept[2];
   const Vec3 middle = mean(mesh.positions);
@@ -163,7 +164,6 @@ bool keep_vertices(const MeshView& mesh, Action action, RamCopy& copy, Clock& cl
     return offset;
   };
   append_kept(mesh.positions);
-  out.normal_offset = append_kept(mesh.normals);
   out.colour_offset = append_kept(mesh.colours);
   if (block.full()) return false;
   clock.charge(CpuWork::kVertexCopied, count);

@@ -69,6 +69,22 @@ TEST(Levels, FourKeepsOneVertexAndFiveTwo) {
   EXPECT_EQ(bench.positions(1), (std::vector<Vec3>{{-1, 0, 0}, {1, 0, 0}}));
 }
 
+TEST(Levels, PointsAndLinesKeepTheirColourAndTakeNoLight) {
+  for (const std::uint32_t level : {4u, 5u}) {
+    TestMesh mesh = square(1, level);
+    mesh.normals.assign(4, pack_normal({0, 0, -1}));
+    mesh.colours = {rgba8(1, 0, 0), rgba8(2, 0, 0), rgba8(3, 0, 0), rgba8(4, 0, 0)};
+    ThinningBench bench(container_rom({mesh}));
+    ASSERT_TRUE(bench.update().ok());
+    const auto& mark = bench.copy().mesh(0);
+    EXPECT_EQ(mark.normal_offset, 0xFFFFFFFFu) << "a stream that is absent";
+    ASSERT_NE(mark.colour_offset, 0xFFFFFFFFu);
+    Rgba8 colour;
+    std::memcpy(&colour.bits, bench.copy().block(0) + mark.colour_offset, 4);
+    EXPECT_EQ(colour, rgba8(1, 0, 0)) << "of the first of equally near or far vertices";
+  }
+}
+
 TEST(Levels, ThinningOffKeepsEverything) {
   ThinningBench bench(container_rom({square(1, 2), hills(8, 3), square(1, 4)}));
   ThinningSettings off;
