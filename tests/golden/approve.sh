@@ -1,6 +1,7 @@
 #!/bin/bash
-# Makes today's pictures the goldens: bash tests/golden/approve.sh [SCENE...]
-# Builds, rewrites manifest.txt and the PNGs of the scenes named (of all, without names), and prints what changed.
+# Makes today's pictures the goldens: bash tests/golden/approve.sh [NAME...]
+# Builds, rewrites manifest.txt and the PNGs of those whose names begin so (of all, without names), and prints what
+# changed.
 # Look at the new pictures before you commit them. README.md beside this file says more.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

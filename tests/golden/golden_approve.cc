@@ -1,4 +1,4 @@
-// Makes today's pictures of the software engine the goldens, and says what that changes. Run by approve.sh.
+// Makes today's pictures the goldens, and says what that changes. Run by approve.sh.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -7,67 +7,79 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/image/compare.h"
 #include "sim/image/png.h"
 #include "tests/golden/golden_store.h"
-#include "tests/support/scene.h"
-#include "tests/support/scene_engines.h"
+#include "tests/golden/subjects.h"
 
 namespace usuzumi::golden {
 namespace {
 
-void tell_change(const Store& store, const scenes::Scene& scene, const sim::Image& picture, std::uint32_t crc) {
-  const Entry* old = store.find(scene.name);
+void tell_change(const Store& store, const Subject& subject, const sim::Image& picture, std::uint32_t crc) {
+  const Entry* old = store.find(subject.name);
   if (old == nullptr) {
-    std::printf("new      %-24s %08x\n", scene.name, crc);
+    std::printf("new      %-24s %08x\n", subject.name, crc);
     return;
   }
-  std::printf("changed  %-24s %08x -> %08x\n", scene.name, old->crc32, crc);
-  if (std::filesystem::exists(store.picture_path(scene.name)))
-    std::printf("%s", sim::report_text(sim::compare_images(sim::read_png(store.picture_path(scene.name)), picture)).c_str());
+  std::printf("changed  %-24s %08x -> %08x\n", subject.name, old->crc32, crc);
+  const std::filesystem::path path = store.picture_path(subject.name);
+  if (std::filesystem::exists(path))
+    std::printf("%s", sim::report_text(sim::compare_images(sim::read_png(path), picture)).c_str());
 }
 
-bool up_to_date(const Store& store, const scenes::Scene& scene, const sim::Image& picture) {
-  const Entry* entry = store.find(scene.name);
-  return entry != nullptr && entry->note == scene.note && entry->crc32 == sim::picture_crc32(picture) &&
-         std::filesystem::exists(store.picture_path(scene.name)) && sim::read_png(store.picture_path(scene.name)) == picture;
+bool up_to_date(const Store& store, const Subject& subject, const sim::Image& picture) {
+  const Entry* entry = store.find(subject.name);
+  const std::filesystem::path path = store.picture_path(subject.name);
+  return entry != nullptr && entry->note == subject.note && entry->crc32 == sim::picture_crc32(picture) &&
+         std::filesystem::exists(path) && sim::read_png(path) == picture;
 }
 
-void approve_scene(Store& store, const scenes::Scene& scene, gfx::Engine& engine) {
-  const scenes::SceneDrawing drawing = scenes::draw_scene(scene, engine);
-  if (!drawing.status.ok()) throw std::runtime_error(std::string(scene.name) + ": not approved: " + drawing.status.message);
-  if (drawing.strayed) throw std::runtime_error(std::string(scene.name) + ": not approved: the engine wrote outside its target");
-  if (up_to_date(store, scene, drawing.picture)) return;
-  const std::uint32_t crc = sim::picture_crc32(drawing.picture);
-  tell_change(store, scene, drawing.picture, crc);
-  store.put({scene.name, drawing.picture.width, drawing.picture.height, crc, scene.note}, drawing.picture);
+void approve_subject(Store& store, const Subject& subject) {
+  const sim::Image picture = subject.draw();
+  if (up_to_date(store, subject, picture)) return;
+  const std::uint32_t crc = sim::picture_crc32(picture);
+  tell_change(store, subject, picture, crc);
+  store.put({subject.name, picture.width, picture.height, crc, subject.note}, picture);
 }
 
-// Goldens of scenes that are no more.
-void remove_stale(Store& store) {
+// Goldens of what is no more.
+void remove_stale(Store& store, std::span<const Subject> subjects) {
   std::set<std::string> stale;
   for (const Entry& entry : store.entries()) stale.insert(entry.scene);
   for (const std::string& picture : store.pictures_on_disk()) stale.insert(picture);
-  for (const scenes::Scene& scene : scenes::all_scenes()) stale.erase(scene.name);
+  for (const Subject& subject : subjects) stale.erase(subject.name);
   for (const std::string& name : stale) {
     std::printf("removed  %s\n", name.c_str());
     store.remove(name);
   }
 }
 
-void approve(std::span<char*> names) {
-  for (const std::string_view name : names) {
-    const auto all = scenes::all_scenes();
-    if (std::none_of(all.begin(), all.end(), [&](const scenes::Scene& s) { return s.name == name; }))
-      throw std::runtime_error(std::string(name) + ": is no scene; scenes are named as their PNGs in tests/golden, without .png");
-  }
+// Those whose name begins with one of the words; all of them where there are none.
+std::vector<Subject> subjects_named(std::span<char*> words) {
+  std::vector<Subject> all = all_subjects();
+  if (words.empty()) return all;
+  std::vector<Subject> named;
+  const auto begins_with = [](const Subject& subject, const char* word) {
+    return std::string_view(subject.name).starts_with(word);
+  };
+  for (const char* word : words)
+    if (std::none_of(all.begin(), all.end(), [&](const Subject& s) { return begins_with(s, word); }))
+      throw std::runtime_error(std::string(word) + ": no golden begins so; they are named as the PNGs in tests/golden");
+  for (const Subject& subject : all)
+    if (std::any_of(words.begin(), words.end(), [&](const char* word) { return begins_with(subject, word); }))
+      named.push_back(subject);
+  return named;
+}
+
+void approve(std::span<char*> words) {
   Store store(Store::source_folder());
-  scenes::SoftEngineKit kit;
-  for (const scenes::Scene& scene : scenes::all_scenes())
-    if (names.empty() || std::find(names.begin(), names.end(), std::string_view(scene.name)) != names.end()) approve_scene(store, scene, kit.engine());
-  if (names.empty()) remove_stale(store);
-  std::printf("%zu goldens in %s; what is not listed above is as it was\n", store.entries().size(), Store::source_folder().c_str());
+  const std::vector<Subject> subjects = subjects_named(words);
+  for (const Subject& subject : subjects) approve_subject(store, subject);
+  if (words.empty()) remove_stale(store, subjects);
+  std::printf("%zu goldens in %s; what is not listed above is as it was\n", store.entries().size(),
+              Store::source_folder().c_str());
 }
 
 }  // namespace

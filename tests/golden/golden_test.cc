@@ -9,8 +9,9 @@
 #include "sim/image/compare.h"
 #include "sim/image/png.h"
 #include "tests/golden/golden_check.h"
-#include "tests/golden/golden_store.h"
+#include "tests/golden/golden_fixture.h"
 #include "tests/golden/panel_route.h"
+#include "tests/golden/subjects.h"
 #include "tests/support/scene.h"
 #include "tests/support/scene_engines.h"
 
@@ -26,13 +27,6 @@ namespace {
 
 using scenes::Scene;
 using scenes::SceneDrawing;
-
-const std::filesystem::path kFailures = USUZUMI_GOLDEN_FAILURES;
-
-const Store& source_store() {
-  static const Store store(Store::source_folder());
-  return store;
-}
 
 gfx::SoftEngine& soft_engine() {
   static scenes::SoftEngineKit kit;
@@ -126,25 +120,22 @@ TEST_P(GoldenScene, EnginesCountTheSameWork) {
   EXPECT_NEAR(static_cast<double>(soft.pixels_tested), static_cast<double>(osmesa.pixels_tested), static_cast<double>(osmesa.pixels_tested) * 0.001);
 }
 
-std::string test_name(const testing::TestParamInfo<Scene>& info) {
-  std::string name = info.param.name;
-  for (char& c : name)
-    if (c == '-') c = '_';
-  return name;
-}
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene,
+                         testing::ValuesIn(scenes::all_scenes().begin(), scenes::all_scenes().end()),
+                         test_name<Scene>);
 
-INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene, testing::ValuesIn(scenes::all_scenes().begin(), scenes::all_scenes().end()), test_name);
-
-TEST(GoldenManifest, NamesEverySceneAndNothingElse) {
+TEST(GoldenManifest, NamesEverySceneAndRunAndNothingElse) {
   std::map<std::string, int> found;
-  for (const Scene& scene : scenes::all_scenes()) {
-    EXPECT_EQ(found[scene.name]++, 0) << scene.name << " is there twice";
-    const Entry* entry = source_store().find(scene.name);
-    ASSERT_NE(entry, nullptr) << scene.name << " has no golden; if its picture is right: bash tests/golden/approve.sh " << scene.name;
-    EXPECT_EQ(entry->note, scene.note) << scene.name << ": approve.sh brings the manifest's note up to date";
+  for (const Subject& subject : all_subjects()) {
+    EXPECT_EQ(found[subject.name]++, 0) << subject.name << " is there twice";
+    const Entry* entry = source_store().find(subject.name);
+    ASSERT_NE(entry, nullptr) << subject.name << " has no golden; if its picture is right: bash tests/golden/approve.sh "
+                              << subject.name;
+    EXPECT_EQ(entry->note, subject.note) << subject.name << ": approve.sh brings the manifest's note up to date";
   }
   for (const Entry& entry : source_store().entries())
-    EXPECT_EQ(found.count(entry.scene), 1u) << entry.scene << " is a golden of no scene; approve.sh without names takes it away";
+    EXPECT_EQ(found.count(entry.scene), 1u)
+        << entry.scene << " is a golden of nothing; approve.sh without names takes it away";
   for (const std::string& picture : source_store().pictures_on_disk())
     EXPECT_NE(source_store().find(picture), nullptr) << picture << ".png is no golden of the manifest";
 }

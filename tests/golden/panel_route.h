@@ -16,7 +16,7 @@ struct PanelShot {
   bool faults = false;              // FIFO underflow or illegal configuration
 };
 
-/// Puts a drawing's colour plane into a machine's VRAM as it is, rows and padding, and shows it by the firmware's driver.
+/// Puts a drawing's colour plane into a machine's VRAM as it is, rows and padding, and shows it by the display driver.
 PanelShot show_on_panel(const scenes::TargetSpec& target, const scenes::SceneDrawing& drawing);
 
 }  // namespace usuzumi::golden

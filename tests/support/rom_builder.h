@@ -37,6 +37,7 @@ struct TestMesh {
   firmware::format::Topology topology = firmware::format::Topology::kStrip;
   std::vector<PackedNormal> normals;
   std::vector<Rgba8> colours;
+  Rgba8 base_colour{};
   std::string name;
   firmware::format::QuotaKind quota_kind = firmware::format::QuotaKind::kNone;
   std::uint32_t quota = 0;
@@ -127,7 +128,7 @@ inline RomImage container_rom(const std::vector<TestMesh>& meshes) {
     rom.word(indexed ? 4 : 0);
     rom.word(mesh.normals.empty() ? kAbsent : normals[n]);
     rom.word(mesh.colours.empty() ? kAbsent : colours[n]);
-    rom.word(0xFFFFFFFF);
+    rom.word(mesh.base_colour.bits);
     rom.word(static_cast<std::uint32_t>(mesh.quota_kind));
     rom.word(mesh.quota);
     rom.number(mesh.area_threshold_px);

@@ -8,7 +8,7 @@
 
 #include "firmware/thinning/thinning.h"
 #include "tests/support/fake_clock.h"
-#include "tests/support/rom_builder.h"
+#include "tests/support/test_meshes.h"
 
 namespace usuzumi::testing {
 
@@ -48,30 +48,5 @@ class ThinningBench {
   Arena arena_;
   firmware::DrawingData data_;
 };
-
-/// An n x n grid of squares over [-1, 1] x [-1, 1] with gentle hills: 2 n^2 faces, (n + 1)^2 vertices.
-inline TestMesh hills(std::uint32_t n, std::uint32_t level) {
-  TestMesh mesh;
-  mesh.level = level;
-  for (std::uint32_t j = 0; j <= n; ++j)
-    for (std::uint32_t i = 0; i <= n; ++i) {
-      const float x = 2 * static_cast<float>(i) / static_cast<float>(n) - 1, y = 2 * static_cast<float>(j) / static_cast<float>(n) - 1;
-      mesh.positions.push_back({x, y, 0.2f * x * x - 0.1f * y * y * y});
-    }
-  for (std::uint32_t j = 0; j < n; ++j)
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      for (std::uint32_t v : {a, b, c, b, d, c}) mesh.indices.push_back(v);
-    }
-  return mesh;
-}
-
-/// One square of side 2 * half around the origin, facing +z, as a strip.
-inline TestMesh square(float half, std::uint32_t level, float z = 0) {
-  TestMesh mesh;
-  mesh.level = level;
-  mesh.positions = {{-half, -half, z}, {half, -half, z}, {-half, half, z}, {half, half, z}};
-  return mesh;
-}
 
 }  // namespace usuzumi::testing

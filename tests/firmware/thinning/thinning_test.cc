@@ -14,6 +14,7 @@ using firmware::Quota;
 using firmware::Reason;
 using firmware::ThinningSettings;
 using firmware::UpdateCause;
+using testing::as_strip;
 using testing::bare_rom;
 using testing::container_rom;
 using testing::flat_view;
@@ -244,19 +245,6 @@ TEST(Quotas, WhatCannotBeReachedIsReported) {
   ASSERT_TRUE(bench.update().ok());
   EXPECT_EQ(bench.copy().mesh(0).faces, 4u);
   EXPECT_EQ(bench.report.quotas_missed, 1u);
-}
-
-/// The faces of an indexed mesh as one strip that repeats places between them, the way bare data must have them.
-TestMesh as_strip(const TestMesh& mesh) {
-  TestMesh strip;
-  strip.level = mesh.level;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
-               &c = mesh.positions[mesh.indices[i + 2]];
-    // Six places for a face, which so is even in the strip and keeps its winding.
-    for (const Vec3& p : {a, a, a, b, c, c}) strip.positions.push_back(p);
-  }
-  return strip;
 }
 
 TEST(Quotas, TheJoinsOfAStripAreNoFaces) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/scene/camera.h"
 #include "sim/common/error.h"
+#include "tests/support/desk_request.h"
 #include "tests/support/thinning_bench.h"
 
 namespace usuzumi {
@@ -14,6 +14,7 @@ using sim::DeskConfig;
 using sim::Error;
 using testing::container_rom;
 using testing::hills;
+using testing::request_for;
 using testing::RomImage;
 using testing::square;
 
@@ -23,14 +24,6 @@ RomImage scene_rom() {
   lamp.colours = {rgba8(255, 0, 0), rgba8(0, 255, 0), rgba8(0, 0, 255), rgba8(255, 255, 0)};
   lamp.flags = firmware::format::kFlagTwoSided;
   return container_rom({ground, lamp, square(0.05f, 2, 0.7f)});
-}
-
-firmware::FrameRequest request(const Desk& desk, double azimuth = 0.3) {
-  firmware::FrameRequest r;
-  const float aspect = static_cast<float>(desk.width()) / static_cast<float>(desk.height());
-  r.model_to_clip = model_to_clip(view_of(bounds_of(desk.drawing_data()), azimuth, 0.4, aspect), aspect);
-  r.lighting.background = rgba8(10, 20, 30);
-  return r;
 }
 
 DeskConfig config(std::uint32_t width = 320, std::uint32_t height = 192) {
@@ -47,7 +40,7 @@ TEST(DeskTest, PanelVramAndSignatureUnitAgreeOnThePicture) {
     if (small) c.board = sim::small_board();
     Desk desk(c, rom.bytes(), "scene");
     for (int i = 0; i < 4; ++i) {
-      const auto shown = desk.draw(request(desk, 0.3 + i));
+      const auto shown = desk.draw(request_for(desk, 0.3 + i));
       EXPECT_EQ(shown.picture.width, 320u);
       EXPECT_EQ(shown.picture.height, 192u);
       EXPECT_EQ(shown.record.crc32, shown.record.panel_crc32);
@@ -60,7 +53,7 @@ TEST(DeskTest, PanelVramAndSignatureUnitAgreeOnThePicture) {
 TEST(DeskTest, ThePictureShowsModelAndBackground) {
   const RomImage rom = scene_rom();
   Desk desk(config(), rom.bytes(), "scene");
-  const auto shown = desk.draw(request(desk));
+  const auto shown = desk.draw(request_for(desk));
   EXPECT_EQ(shown.picture.at(0, 0), 0x0A141Eu);
   std::size_t model = 0;
   for (std::uint32_t v : shown.picture.xrgb) model += v != 0x0A141Eu ? 1 : 0;
@@ -74,7 +67,7 @@ TEST(DeskTest, TwoRunsTakeTheSameVirtualTimeWhateverTheThreads) {
   two_threads.threads = 2;
   Desk a(config(), rom.bytes(), "a"), b(two_threads, rom.bytes(), "b");
   for (int i = 0; i < 3; ++i) {
-    const auto ra = a.draw(request(a, i)).record, rb = b.draw(request(b, i)).record;
+    const auto ra = a.draw(request_for(a, i)).record, rb = b.draw(request_for(b, i)).record;
     EXPECT_EQ(ra.crc32, rb.crc32);
     EXPECT_EQ(ra.firmware.thin_ns, rb.firmware.thin_ns);
     EXPECT_EQ(ra.firmware.draw_ns, rb.firmware.draw_ns);
@@ -87,7 +80,7 @@ TEST(DeskTest, RomIsUnchangedByARun) {
   const RomImage rom = scene_rom();
   Desk desk(config(), rom.bytes(), "scene");
   const std::uint32_t before = desk.machine().rom_crc32();
-  for (int i = 0; i < 3; ++i) desk.draw(request(desk, i));
+  for (int i = 0; i < 3; ++i) desk.draw(request_for(desk, i));
   EXPECT_EQ(desk.machine().rom_crc32(), before);
   EXPECT_EQ(before, crc32(kCrc32Start, rom.bytes()));
 }
@@ -95,7 +88,7 @@ TEST(DeskTest, RomIsUnchangedByARun) {
 TEST(DeskTest, TheFirmwareMakesNoGuestErrors) {
   const RomImage rom = scene_rom();
   Desk desk(config(), rom.bytes(), "scene");
-  for (int i = 0; i < 3; ++i) desk.draw(request(desk, i));
+  for (int i = 0; i < 3; ++i) desk.draw(request_for(desk, i));
   EXPECT_EQ(desk.machine().guest_log().mistakes(), 0u);
   EXPECT_EQ(desk.machine().guest_log().unimplemented(), 0u);
 }
@@ -106,7 +99,7 @@ TEST(DeskTest, AHungEngineEndsInASentenceNotInAHang) {
   c.faults.engine_hangs = true;
   Desk desk(c, rom.bytes(), "scene");
   try {
-    desk.draw(request(desk));
+    desk.draw(request_for(desk));
     FAIL() << "a hung engine drew";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), sim::ExitCode::kDevice);
@@ -119,7 +112,7 @@ TEST(DeskTest, ABusTooSlowForTheDisplayIsSeenInThePictureAndInTheStatus) {
   DeskConfig slow = config(800, 480);
   slow.faults.bus_slowdown = 100;  // 32 MB a second for a picture that takes 92
   Desk starved(slow, rom.bytes(), "scene"), sound(config(800, 480), rom.bytes(), "scene");
-  const auto bad = starved.draw(request(starved)), good = sound.draw(request(sound));
+  const auto bad = starved.draw(request_for(starved)), good = sound.draw(request_for(sound));
   EXPECT_NE(bad.record.crc32, good.record.crc32);
   EXPECT_EQ(bad.record.crc32, bad.record.panel_crc32);
   EXPECT_GT(starved.machine().display().starved_lines(), 0u);
@@ -143,7 +136,7 @@ TEST(DeskTest, DrawsAModelAsLargeAndAsSmallAsCoordinatesGo) {
     auto ground = hills(16, 3);
     for (Vec3& p : ground.positions) p = {p.x * size, p.y * size, p.z * size};
     Desk desk(config(), container_rom({ground}).bytes(), "far");
-    const auto shown = desk.draw(request(desk));
+    const auto shown = desk.draw(request_for(desk));
     EXPECT_EQ(shown.record.firmware.thinning.faces_out, 256u) << size;
     std::size_t model = 0;
     for (std::uint32_t v : shown.picture.xrgb) model += v != 0x0A141Eu ? 1 : 0;

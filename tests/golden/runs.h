@@ -1,0 +1,39 @@
+// Whole runs of the device with goldens of their own: drawing data thinned by the firmware, drawn by the software
+// engine, sent by the display controller, and read from the panel.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "firmware/thinning/policy.h"
+#include "sim/desk/desk.h"
+#include "tests/support/rom_builder.h"
+
+namespace usuzumi::golden {
+
+struct DeviceRun {
+  const char* name;  // names the PNG and the line in the manifest
+  const char* note;  // what the run proves
+  sim::BoardDescription board;
+  std::uint32_t width, height;
+  std::function<testing::RomImage()> rom;
+  firmware::ThinningSettings thinning;
+  std::vector<double> azimuths_rad;  // of the camera, one a frame; the last frame has the golden
+};
+
+std::span<const DeviceRun> all_runs();
+
+struct RunPicture {
+  sim::Image picture;               // the last frame on the panel
+  std::uint32_t signature_crc = 0;  // of it, by the display controller's signature unit
+  std::uint32_t vram_crc = 0;       // of it, straight from VRAM
+  firmware::ThinningReport thinning;
+};
+
+/// Boots a device and draws the frames of `azimuths_rad`. Throws sim::Error where the device fails.
+RunPicture draw_run(const DeviceRun& run, std::span<const double> azimuths_rad, std::uint32_t threads = 1);
+inline RunPicture draw_run(const DeviceRun& run) { return draw_run(run, run.azimuths_rad); }
+
+}  // namespace usuzumi::golden
