@@ -22,8 +22,8 @@ struct CpuCost {
 inline constexpr std::array<CpuCost, static_cast<std::size_t>(CpuWork::kCount)> kCpuCosts{{
     {CpuWork::kVertexCopied, 30},        // 20 bytes (position, normal, colour) out of flash, checked, into RAM
     {CpuWork::kIndexCopied, 8},          // 4 bytes likewise, compared with the vertex count
-    {CpuWork::kVertexMeasured, 40},      // 16 multiply-adds, a divide
-    {CpuWork::kFaceMeasured, 60},        // outcode test, cross product, sum; clipped faces average in
+    {CpuWork::kFaceMeasured, 180},       // three corners of 16 multiply-adds and a divide; outcodes, cross product, sum;
+                                         // clipped faces average in
     {CpuWork::kConnectivityBuilt, 100},  // three corners counted and placed: five scattered accesses
     {CpuWork::kEdgeCosted, 200},     // two quadrics added, 3x3 solved, error evaluated: about 90 operations, 4 misses
     {CpuWork::kQueueOperation, 90},  // about four levels of a heap, one miss each

@@ -12,8 +12,7 @@ namespace usuzumi {
 enum class CpuWork : std::uint8_t {
   kVertexCopied,      // one vertex read from ROM and written to the RAM copy
   kIndexCopied,       // one index
-  kVertexMeasured,    // one vertex projected for the area on screen
-  kFaceMeasured,      // one face clipped and added to the area on screen
+  kFaceMeasured,      // one face projected, clipped and added to the area on screen
   kConnectivityBuilt, // one face entered into the mesh connectivity
   kEdgeCosted,        // one edge's quadric error and placement evaluated
   kQueueOperation,    // one edge put into or taken from the cost order

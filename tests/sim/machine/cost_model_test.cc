@@ -12,8 +12,7 @@ namespace {
 TEST(CpuCostModel, HasTheNumbersOfThePage) {
   EXPECT_EQ(cpu_clocks(CpuWork::kVertexCopied), 30u);
   EXPECT_EQ(cpu_clocks(CpuWork::kIndexCopied), 8u);
-  EXPECT_EQ(cpu_clocks(CpuWork::kVertexMeasured), 40u);
-  EXPECT_EQ(cpu_clocks(CpuWork::kFaceMeasured), 60u);
+  EXPECT_EQ(cpu_clocks(CpuWork::kFaceMeasured), 180u);
   EXPECT_EQ(cpu_clocks(CpuWork::kConnectivityBuilt), 100u);
   EXPECT_EQ(cpu_clocks(CpuWork::kEdgeCosted), 200u);
   EXPECT_EQ(cpu_clocks(CpuWork::kQueueOperation), 90u);
