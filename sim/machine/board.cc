@@ -20,8 +20,7 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .width = 1920,
      .height = 720,
      .pixel_format = command::PixelFormat::kXrgb8888,
-     .depth_format = command::DepthFormat::kUnorm24,
-     .command_list_words = 1u << 20},
+     .depth_format = command::DepthFormat::kUnorm24},
     {.name = "small",
      .ram_bytes = 2 * kMiB,
      .vram_bytes = 1 * kMiB,
@@ -32,8 +31,7 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .width = 480,
      .height = 272,
      .pixel_format = command::PixelFormat::kRgb565,
-     .depth_format = command::DepthFormat::kUnorm16,
-     .command_list_words = 1u << 14},
+     .depth_format = command::DepthFormat::kUnorm16},
 }};
 
 }  // namespace

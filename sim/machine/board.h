@@ -22,7 +22,6 @@ struct BoardDescription {
   std::uint32_t height = 0;
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
-  std::uint32_t command_list_words = 0;  // per frame
 };
 
 /// The desk machine: plenty of memory (reserved, used only as touched), XRGB8888 with 24 bits of depth.
