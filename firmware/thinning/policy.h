@@ -29,6 +29,8 @@ struct Policy {
 };
 
 /// A face quota from outside the drawing data. kFaces is one budget over all level-3 meshes, shared by their face counts.
+/// A mesh that a policy passes over keeps its share and is drawn whole, so that the budget is exceeded by it: another
+/// mesh's quota does not change with what the policy does to this one, and nothing else is thinned anew for it.
 struct Quota {
   format::QuotaKind kind = format::QuotaKind::kNone;
   std::uint32_t value = 0;

@@ -224,6 +224,18 @@ TEST(Quotas, OneBudgetIsSharedByFaceCounts) {
   EXPECT_EQ(bench.copy().mesh(2).faces, 200u) << "level 1 is not touched";
 }
 
+TEST(Quotas, AMeshThatThePolicyPassesOverKeepsItsShareOfTheBudget) {
+  ThinningBench bench(container_rom({hills(20, 3), hills(10, 3)}));
+  const std::uint32_t chosen[] = {1};
+  ThinningSettings settings;
+  settings.quota = {QuotaKind::kFaces, 500};
+  settings.collapse_policy.kind = PolicyKind::kChosen;
+  settings.collapse_policy.chosen = chosen;
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_EQ(bench.copy().mesh(0).faces, 800u);
+  EXPECT_EQ(bench.thinning.state(1).decision.target_faces, 100u) << "as if the other were thinned";
+}
+
 TEST(Quotas, AnAuthorsCountHolds) {
   TestMesh mesh = hills(10, 3);
   mesh.quota_kind = QuotaKind::kFaces;
