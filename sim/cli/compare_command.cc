@@ -8,12 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/report_errors.h"
 #include "sim/image/compare.h"
+#include "sim/image/png.h"
 
 namespace usuzumi::sim {
 namespace {
+
+constexpr std::uint64_t kMostPngPixels = std::uint64_t{kMaxPngSize} * kMaxPngSize;
 
 struct CompareArguments {
   std::string expected, actual, difference;
@@ -53,10 +57,13 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   command->add_option("EXPECTED", arguments->expected, "PNG: the picture as it should be")->required();
   command->add_option("ACTUAL", arguments->actual, "PNG: the picture as it is")->required();
   command->add_option("--max-diff", arguments->max_diff, "Largest difference of a channel that still counts as equal")
-      ->check(CLI::Range(0u, 255u))
+      ->transform(whole_number(0, 255))
       ->capture_default_str();
-  command->add_option("--max-pixels", arguments->max_pixels, "Pixels that may differ")->capture_default_str();
-  command->add_option("--ignore", arguments->ignore, "Rectangle to leave out, x0:y0-x1:y1, both corners included. May be given several times");
+  command->add_option("--max-pixels", arguments->max_pixels, "Pixels that may differ")
+      ->transform(whole_number(0, kMostPngPixels))
+      ->capture_default_str();
+  command->add_option("--ignore", arguments->ignore, "Rectangle to leave out, x0:y0-x1:y1, both corners included. May be given several times")
+      ->allow_extra_args(false);  // so that a picture may follow
   command->add_option("--diff", arguments->difference, "PNG to write: where the pictures differ, in red");
   command->add_flag("--json", arguments->json, "Report as JSON");
   command->footer("Example: usuzumi compare golden.png actual.png --ignore 0:0-99:19 --diff difference.png\nExit code 0 same, 1 differ, 2 cannot compare.");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "sim/common/error.h"
@@ -26,22 +27,30 @@ firmware::Placement placement_option(const std::string& value) {
   return value == "midpoint" ? firmware::Placement::kMidpoint : firmware::Placement::kOptimal;
 }
 
-std::uint32_t count_option(const std::string& option, const std::string& value, std::uint32_t limit) {
-  std::uint32_t n = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), n);
-  if (error != std::errc{} || end != value.data() + value.size() || n > limit)
-    throw Error(ExitCode::kUsage, fmt::format("{} {}: must be a whole number up to {}", option, value, limit));
+std::optional<std::uint64_t> parse_whole_number(std::string_view text, std::uint64_t most) {
+  std::uint64_t n = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+  if (error != std::errc{} || end != text.data() + text.size() || n > most) return std::nullopt;
   return n;
+}
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  const std::string range = fmt::format("{} to {}", least, most);
+  return {[=](std::string& text) {
+            const auto n = parse_whole_number(text, most);
+            if (!n || *n < least) return fmt::format("{} must be a whole number, {}", text, range);
+            text = std::to_string(*n);  // without leading zeros
+            return std::string();
+          },
+          range};
 }
 
 PictureSize size_option(const std::string& option, const std::string& value) {
   const auto x = value.find('x');
   if (x != std::string::npos) {
-    try {
-      const PictureSize size{count_option(option, value.substr(0, x), kMostSize), count_option(option, value.substr(x + 1), kMostSize)};
-      if (size.width >= kLeastSize && size.height >= kLeastSize) return size;
-    } catch (const Error&) {
-    }
+    const auto width = parse_whole_number(value.substr(0, x), kMostSize), height = parse_whole_number(value.substr(x + 1), kMostSize);
+    if (width && height && *width >= kLeastSize && *height >= kLeastSize)
+      return {static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
   }
   throw Error(ExitCode::kUsage, fmt::format("{} {}: must be WIDTHxHEIGHT in pixels, each {} to {}, e.g. 1920x720", option, value, kLeastSize, kMostSize));
 }

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "firmware/simplify/simplify.h"
 #include "sim/pack/model.h"
+
+namespace CLI {
+class Validator;
+}
 
 namespace usuzumi::sim {
 
@@ -21,7 +27,10 @@ struct PictureSize {
 };
 PictureSize size_option(const std::string& option, const std::string& value);
 
-/// A whole number of at most `limit`. Throws Error kUsage.
-std::uint32_t count_option(const std::string& option, const std::string& value, std::uint32_t limit);
+/// Decimal digits and nothing else; nullopt also above `most`.
+std::optional<std::uint64_t> parse_whole_number(std::string_view text, std::uint64_t most);
+
+/// For CLI::Option::transform() of numbers without a sign: the parser by itself takes -1 for 2^64 - 1 and 010 for eight.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
 }  // namespace usuzumi::sim

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
 #include "sim/common/report_errors.h"
@@ -158,10 +159,10 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--area", options->areas, "Area on screen up to which level 2 or 3 acts, in pixels")->type_name("NAME=PX");
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
   command->add_option("--default-level", options->default_level, "Level of the meshes that have none")
-      ->check(CLI::Range(0, 5));
+      ->transform(whole_number(0, firmware::kLevelCount - 1));
   command->add_flag("--bare", options->bare, "Write the patent's layout alone: strips of positions, and levels");
   command->add_option("--time-limit", options->time_limit_s, "Seconds after which reading a file is given up")
-      ->check(CLI::Range(1, 86400))
+      ->transform(whole_number(1, 86400))
       ->capture_default_str();
   command->footer(kFooter);
   command->callback([options, &exit_code] { report_errors(exit_code, [&] { return pack(*options); }); });

@@ -12,9 +12,11 @@
 namespace usuzumi::sim {
 namespace {
 
-using firmware::Level;
 using firmware::Policy;
 using firmware::PolicyKind;
+
+constexpr std::uint64_t kMostPixels = 1u << 24;  // an area as exact as a single-precision number holds it
+constexpr std::uint64_t kMostSeed = 0xFFFFFFFF;
 
 [[noreturn]] void refuse(const std::string& word, const std::string& why) {
   throw Error(ExitCode::kUsage, fmt::format("--policy {}: {}", word, why));
@@ -30,7 +32,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
-/// Meshes of `level` (or of either, kUnset) whose name matches one of the patterns.
+/// Numbers of the meshes, of whatever level, whose name matches one of the patterns; rising.
 std::vector<std::uint32_t> named_meshes(const std::string& word, std::string_view patterns, const firmware::DrawingData& data) {
   std::vector<std::string> names;
   data.for_each_mesh([&](const firmware::MeshView& mesh) { names.emplace_back(mesh.name); });
@@ -52,7 +54,10 @@ void set_random(const std::string& word, std::string_view argument, Policy& poli
   const FaceQuota share = quota_option("--policy", parts[0]);
   policy.kind = PolicyKind::kRandom;
   policy.random_millionths = share.value;
-  if (parts.size() == 2) policy.seed = count_option("--policy seed", parts[1], 0xFFFFFFFF);
+  if (parts.size() == 1) return;
+  const auto seed = parse_whole_number(parts[1], kMostSeed);
+  if (!seed) refuse(word, fmt::format("SEED must be a whole number up to {}", kMostSeed));
+  policy.seed = static_cast<std::uint32_t>(*seed);
 }
 
 }  // namespace
@@ -78,7 +83,9 @@ void PolicyOptions::parse(const std::string& word, const firmware::DrawingData& 
     policy.kind = PolicyKind::kAlways;
   } else if (name == "below-area") {
     policy.kind = PolicyKind::kBelowArea;
-    policy.area_threshold_px = static_cast<float>(count_option("--policy below-area, pixels", std::string(argument), 1u << 24));
+    const auto pixels = parse_whole_number(argument, kMostPixels);
+    if (!pixels) refuse(word, fmt::format("PIXELS must be a whole number up to {}", kMostPixels));
+    policy.area_threshold_px = static_cast<float>(*pixels);
   } else if (name == "chosen" && !argument.empty()) {
     policy.kind = PolicyKind::kChosen;
     chosen = named_meshes(word, argument, data);

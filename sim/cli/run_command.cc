@@ -170,7 +170,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("ROM", options->rom, "ROM image: container or bare drawing data")->required();
   command->add_option("--board", options->board, "The device's memories and clocks")->check(CLI::IsMember(board_names))->capture_default_str();
   command->add_option("--size", options->size, "Picture, WIDTHxHEIGHT in pixels; without it the board's panel");
-  command->add_option("--frames", options->frames, "Frames to draw")->check(CLI::Range(1u, kMostFrames))->capture_default_str();
+  command->add_option("--frames", options->frames, "Frames to draw")->transform(whole_number(1, kMostFrames))->capture_default_str();
   command->add_flag("--orbit", options->orbit, "Turn once around the model over the frames");
   command->add_option("--camera", options->camera,
                       "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, \"near\": …, \"far\": …}, …]}");
@@ -182,10 +182,11 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--policy", options->policies,
                       "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], random:SHARE%[:SEED]; "
-                      "with 2= or 3= before it for one level. May be given several times");
+                      "with 2= or 3= before it for one level. May be given several times")
+      ->allow_extra_args(false);  // so that a ROM may follow
   command->add_option("--engine", options->engine, "3D engine")->check(CLI::IsMember({"soft", "osmesa"}))->capture_default_str();
   command->add_option("--threads", options->threads, "Host threads of the soft engine; the pictures do not depend on it")
-      ->check(CLI::Range(1u, kMostThreads))
+      ->transform(whole_number(1, kMostThreads))
       ->capture_default_str();
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
   command->add_option("--out", options->out, "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it");

@@ -81,6 +81,7 @@ TEST_F(RunCommand, QuotasAndPoliciesRule) {
   EXPECT_EQ(stats("--policy below-area:1")["frames"][0]["faces_thinned"], 800);
   EXPECT_EQ(stats("--policy 3=chosen:hills")["frames"][0]["faces_thinned"], 400);
   EXPECT_EQ(stats("--policy random:1%")["frames"][0]["faces_thinned"], 800);
+  EXPECT_EQ(usuzumi("run --policy always hills.rom --size 160x96").exit_code, 0) << "a ROM may follow a policy";
 }
 
 TEST_F(RunCommand, StatisticsSayWhyAMeshIsKept) {
@@ -141,12 +142,17 @@ TEST_F(RunCommand, AnswersBadInputWithOneLine) {
   expect_one_line_error(usuzumi("run hills.obj"), 3, "hills.obj");
   expect_one_line_error(usuzumi("run hills.rom --size 12"), 2, "WIDTHxHEIGHT");
   expect_one_line_error(usuzumi("run hills.rom --size 8000x10"), 2, "--size 8000x10");
-  expect_one_line_error(usuzumi("run hills.rom --frames 0"), 2, "frames");
+  for (const char* number : {"0", "-18446744073709551615", "1000001"}) {
+    expect_one_line_error(usuzumi(std::string("run hills.rom --frames ") + number), 2, "--frames");
+    expect_one_line_error(usuzumi(std::string("run hills.rom --threads ") + number), 2, "--threads");
+  }
   expect_one_line_error(usuzumi("run hills.rom --engine voodoo"), 2, "voodoo");
   expect_one_line_error(usuzumi("run hills.rom --quota 0"), 2, "--quota 0");
   expect_one_line_error(usuzumi("run hills.rom --policy never"), 2, "--policy never");
   expect_one_line_error(usuzumi("run hills.rom --policy chosen:valleys"), 2, "hills");
   expect_one_line_error(usuzumi("run hills.rom --policy random:half"), 2, "random");
+  expect_one_line_error(usuzumi("run hills.rom --policy random:50%:-1"), 2, "--policy random:50%:-1: SEED");
+  expect_one_line_error(usuzumi("run hills.rom --policy below-area:-1"), 2, "--policy below-area:-1: PIXELS");
   expect_one_line_error(usuzumi("run hills.rom --thin off --quota 50%"), 2, "--thin off");
   expect_one_line_error(usuzumi("run hills.rom --orbit --camera path.json"), 2, "--orbit");
   expect_one_line_error(usuzumi("run hills.rom --camera nothing.json"), 3, "nothing.json");

@@ -140,6 +140,8 @@ TEST(PackCommand, BadOptionValuesAreUsageErrors) {
   for (const char* area : {"wheel=-1", "wheel=nan", "wheel=inf", "wheel=1e999"})
     refused(folder, {model, "--area", area}, 2);
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--default-level", "6"}).exit_code, 2);
+  for (const char* seconds : {"0", "-18446744073709551615", "86401"})
+    EXPECT_EQ(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--time-limit", seconds}).exit_code, 2) << seconds;
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--no-such-option"}).exit_code, 2);
   EXPECT_EQ(run_usuzumi({"pack", model}).exit_code, 2);
 }
