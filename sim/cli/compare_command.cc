@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
+#include "sim/common/files.h"
 #include "sim/common/report_errors.h"
 #include "sim/image/compare.h"
 #include "sim/image/png.h"
@@ -36,6 +39,8 @@ int compare(const CompareArguments& arguments) {
     if (!rectangle) throw Error(ExitCode::kUsage, fmt::format("--ignore {}: must be x0:y0-x1:y1, both corners included, e.g. 10:20-30:40", text));
     options.ignore.push_back(*rectangle);
   }
+  if (!arguments.difference.empty())
+    check_output(arguments.difference, "--diff", std::array<std::filesystem::path, 2>{arguments.expected, arguments.actual});
   const CompareReport report =
       compare_png_files(arguments.expected, arguments.actual, options,
                         arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));

@@ -80,15 +80,7 @@ void note_what_bare_loses(Model& model) {
         fmt::format("face quotas, area thresholds or telltale marks of {} meshes are lost as well", tagged));
 }
 
-void check_output_is_no_input(const PackOptions& options) {
-  std::vector<std::string> inputs = options.inputs;
-  inputs.insert(inputs.end(), options.sidecars.begin(), options.sidecars.end());
-  for (const std::string& input : inputs) {
-    std::error_code none;
-    if (fs::equivalent(input, options.output, none))
-      throw Error(ExitCode::kUsage, fmt::format("{}: is an input as well; give -o another name", options.output));
-  }
-}
+std::vector<fs::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
 void print_notes(const Model& model) {
   constexpr std::size_t kMost = 30;
@@ -110,13 +102,15 @@ void print_summary(const PackOptions& options, const firmware::DrawingData& data
 
 int pack(const PackOptions& options) {
   const std::vector<TagRule> from_options = option_rules(options), from_sidecars = sidecar_rules(options);
-  check_output_is_no_input(options);
+  const std::vector<fs::path> inputs = paths(options.inputs);
+  check_output(options.output, "-o", inputs);
+  check_output(options.output, "-o", paths(options.sidecars));
   if (options.bare) {
     check_bare_can_keep(from_options, ExitCode::kUsage);
     check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
   }
-  const std::vector<fs::path> inputs(options.inputs.begin(), options.inputs.end());
   Model model = load_models(inputs, {std::chrono::seconds(options.time_limit_s)});
+  check_output(options.output, "-o", paths(model.buffer_files));
   apply_tags(model, {from_options, from_sidecars, options.default_level});
   if (options.bare) note_what_bare_loses(model);
 

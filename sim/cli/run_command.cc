@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -123,7 +124,22 @@ firmware::ThinningSettings thinning_settings(const RunOptions& options, const Po
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error(ExitCode::kCannotWrite, fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  if (error)
+    throw Error(ExitCode::kCannotWrite,
+                fmt::format("{}: cannot make the folder: {}; choose another place", folder.string(), error.message()));
+}
+
+fs::path picture_path(const RunOptions& options, std::uint32_t frame) {
+  return fs::path(options.out) / fmt::format("frame-{:04}.png", frame);
+}
+
+void prepare_outputs(const RunOptions& options) {
+  const std::array<fs::path, 2> inputs{options.rom, options.camera};
+  if (!options.out.empty()) {
+    make_folder(options.out);
+    check_output(picture_path(options, 0), "--out", inputs);
+  }
+  if (!options.stats.empty()) check_output(options.stats, "--stats", inputs);  // it may lie in the new folder
 }
 
 void check_combinations(const RunOptions& options) {
@@ -142,7 +158,7 @@ int run(const RunOptions& options) {
   const PolicyOptions policies(options.policies, desk.drawing_data());
   const firmware::ThinningSettings thinning = thinning_settings(options, policies);
   const CameraPath path(options, desk);
-  if (!options.out.empty()) make_folder(options.out);
+  prepare_outputs(options);
 
   std::vector<FrameRecord> records;
   {
@@ -151,7 +167,7 @@ int run(const RunOptions& options) {
       progress.update(static_cast<double>(i) / options.frames);
       const Desk::Shown shown = desk.draw(request_for(path.at(i), path.aspect(), thinning, background));
       records.push_back(shown.record);
-      if (!options.out.empty()) write_png(fs::path(options.out) / fmt::format("frame-{:04}.png", i), shown.picture);
+      if (!options.out.empty()) write_png(picture_path(options, i), shown.picture);
     }
   }
   const RunSummary summary{options.rom, options.board, options.engine, desk.width(), desk.height(), desk.memory()};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -142,6 +143,7 @@ int thin(const ThinOptions& options) {
   if (!is_mesh_file_name(options.output))
     throw Error(ExitCode::kUsage, fmt::format("-o {}: meshes are written as .ply or .obj; choose one of these extensions", options.output.string()));
   const FaceQuota quota = quota_option("--faces", options.faces);
+  check_output(options.output, "-o", std::array{options.input});
   const JoinedMesh joined = load_joined(options.input, options.colours);
   if (joined.indices.empty()) throw Error(ExitCode::kBadInput, fmt::format("{}: the model has no faces to thin", options.input.string()));
 

@@ -68,16 +68,45 @@ void write_directly(const fs::path& path, std::span<const std::byte> bytes) {
   if (out.get() < 0 || !write_all(out.get(), bytes) || !out.close()) cannot_write(path, std::strerror(errno));
 }
 
-void write_and_rename(const fs::path& path, std::span<const std::byte> bytes) {
-  std::string temporary = path.string() + ".part-XXXXXX";
-  Descriptor out(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (out.get() < 0) cannot_write(path, std::strerror(errno));
-  if (!write_all(out.get(), bytes) || ::fchmod(out.get(), new_file_mode()) != 0 || !out.close() ||
-      ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const std::string why = std::strerror(errno);
-    ::unlink(temporary.c_str());
-    cannot_write(path, why);
+/// A new file beside `path`, which takes its name once it is complete and vanishes otherwise.
+class FileBeside {
+ public:
+  explicit FileBeside(const fs::path& path)
+      : path_(path), name_(path.string() + ".part-XXXXXX"), out_(::mkostemp(name_.data(), O_CLOEXEC)) {
+    if (out_.get() < 0) cannot_write(path_, std::strerror(errno));
   }
+  ~FileBeside() {
+    if (!renamed_) ::unlink(name_.c_str());
+  }
+  FileBeside(const FileBeside&) = delete;
+  FileBeside& operator=(const FileBeside&) = delete;
+
+  void write_and_rename(std::span<const std::byte> bytes) {
+    renamed_ = write_all(out_.get(), bytes) && ::fchmod(out_.get(), new_file_mode()) == 0 && out_.close() &&
+               ::rename(name_.c_str(), path_.c_str()) == 0;
+    if (!renamed_) cannot_write(path_, std::strerror(errno));
+  }
+
+ private:
+  const fs::path& path_;
+  std::string name_;
+  Descriptor out_;
+  bool renamed_ = false;
+};
+
+/// A device or pipe takes bytes and is not replaced. Throws Error kCannotWrite for a folder.
+bool is_written_directly(const fs::path& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  if (fs::is_directory(status)) cannot_write(path, "it is a folder");
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// A symbolic link keeps pointing: what it points to is replaced.
+fs::path replaced_path(const fs::path& path) {
+  std::error_code none;
+  const fs::path target = fs::is_symlink(fs::symlink_status(path, none)) ? fs::weakly_canonical(path, none) : path;
+  return target.empty() ? path : target;
 }
 
 }  // namespace
@@ -115,14 +144,24 @@ std::vector<std::byte> read_file(const fs::path& path, std::uint64_t max_bytes) 
   return bytes;
 }
 
+void check_output(const fs::path& path, std::string_view option, std::span<const fs::path> inputs) {
+  if (is_written_directly(path)) {
+    if (::access(path.c_str(), W_OK) != 0) cannot_write(path, std::strerror(errno));
+    return;
+  }
+  for (const fs::path& input : inputs) {
+    std::error_code none;
+    if (fs::equivalent(input, path, none))
+      throw Error(ExitCode::kUsage, fmt::format("{} {}: is an input as well; choose another name", option, path.string()));
+  }
+  const fs::path target = replaced_path(path);
+  const FileBeside trial(target);
+}
+
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  std::error_code none;
-  const fs::file_status status = fs::status(path, none);
-  if (fs::is_directory(status)) cannot_write(path, "it is a folder");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, bytes);
-  // A symbolic link keeps pointing: what it points to is replaced.
-  const fs::path target = fs::is_symlink(fs::symlink_status(path, none)) ? fs::weakly_canonical(path, none) : path;
-  write_and_rename(target.empty() ? path : target, bytes);
+  if (is_written_directly(path)) return write_directly(path, bytes);
+  const fs::path target = replaced_path(path);
+  FileBeside(target).write_and_rename(bytes);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view text) {

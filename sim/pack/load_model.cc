@@ -58,9 +58,9 @@ Model import_by_extension(const fs::path& path) {
   if (extension == ".off") check_off_counts(path);
   if (extension != ".gltf" && extension != ".glb") return import_assimp(path);
   const GltfFile file = open_gltf(path);
-  if (file.version_major == 2) return import_gltf(path, file);
-  Model model = import_assimp(path, &file);
-  label_gltf1(file, model);
+  Model model = file.version_major == 2 ? import_gltf(path, file) : import_assimp(path, &file);
+  if (file.version_major == 1) label_gltf1(file, model);
+  for (const auto& [name, bytes] : file.buffer_files) model.buffer_files.push_back((path.parent_path() / name).string());
   return model;
 }
 
@@ -158,6 +158,7 @@ Model load_models(std::span<const fs::path> paths, const LoadOptions& options) {
   for (const fs::path& path : paths) {
     Model model = load_model(path, options);
     std::move(model.meshes.begin(), model.meshes.end(), std::back_inserter(all.meshes));
+    std::move(model.buffer_files.begin(), model.buffer_files.end(), std::back_inserter(all.buffer_files));
     std::move(model.notes.begin(), model.notes.end(), std::back_inserter(all.notes));
   }
   make_names_unique(all);

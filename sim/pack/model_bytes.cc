@@ -95,14 +95,21 @@ void mesh_fields(Stream& s, Mesh& mesh) {
 }
 
 template <class Stream>
+void lines(Stream& s, std::vector<std::string>& all) {
+  std::size_t n = all.size();
+  s.count(n);
+  all.resize(n);
+  for (std::string& line : all) s.array(line);
+}
+
+template <class Stream>
 void model_fields(Stream& s, Model& model) {
-  std::size_t meshes = model.meshes.size(), notes = model.notes.size();
+  std::size_t meshes = model.meshes.size();
   s.count(meshes);
   model.meshes.resize(meshes);
   for (Mesh& mesh : model.meshes) mesh_fields(s, mesh);
-  s.count(notes);
-  model.notes.resize(notes);
-  for (std::string& note : model.notes) s.array(note);
+  lines(s, model.buffer_files);
+  lines(s, model.notes);
 }
 
 }  // namespace

@@ -35,6 +35,14 @@ TEST_F(CompareCommand, TakesNoNumberThatWouldWrapAround) {
   expect_one_line_error(usuzumi("compare a.png b.png --max-diff 256"), 2, "0 to 255");
 }
 
+TEST_F(CompareCommand, WritesOverNeitherPicture) {
+  const std::string a = text("a.png"), b = text("b.png");
+  expect_one_line_error(usuzumi("compare a.png b.png --diff a.png"), 2, "--diff a.png");
+  expect_one_line_error(usuzumi("compare a.png b.png --diff b.png"), 2, "--diff b.png");
+  EXPECT_EQ(text("a.png"), a);
+  EXPECT_EQ(text("b.png"), b);
+}
+
 TEST_F(CompareCommand, TakesFilesAlsoAfterARectangle) {
   EXPECT_EQ(usuzumi("compare --ignore 2:1-2:1 a.png b.png").exit_code, 0);
 }

@@ -165,6 +165,27 @@ TEST_F(RunCommand, AnswersBadInputWithOneLine) {
   expect_one_line_error(usuzumi("run hills.rom --camera path.json"), 3, "eyes");
 }
 
+TEST_F(RunCommand, WritesOverNoneOfItsInputs) {
+  write("path.json", R"({"eye": [10, 30, 40], "target": [10, 0, 10]})");
+  std::filesystem::create_symlink("hills.rom", folder() / "link");
+  const std::string rom = text("hills.rom"), camera = text("path.json");
+  expect_one_line_error(usuzumi("run hills.rom --stats hills.rom"), 2, "--stats hills.rom");
+  expect_one_line_error(usuzumi("run hills.rom --stats link"), 2, "--stats link");
+  expect_one_line_error(usuzumi("run link --stats ./hills.rom"), 2, "--stats ./hills.rom");
+  expect_one_line_error(usuzumi("run hills.rom --camera path.json --stats path.json"), 2, "--stats path.json");
+  EXPECT_EQ(text("hills.rom"), rom);
+  EXPECT_EQ(text("path.json"), camera);
+}
+
+TEST_F(RunCommand, LooksForRoomForItsOutputsBeforeItDraws) {
+  const std::string a_long_run = "run hills.rom --size 160x96 --orbit --frames 1000000 ";  // stopped by the test's time limit
+  expect_one_line_error(usuzumi(a_long_run + "--stats missing/stats.json"), 4, "missing");
+  expect_one_line_error(usuzumi(a_long_run + "--out /dev/null/pictures"), 4, "choose another place");
+  expect_one_line_error(usuzumi(a_long_run + "--out /proc"), 4, "/proc/frame-0000.png");
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --out new --stats new/stats.json").exit_code, 0);
+  EXPECT_TRUE(exists("new/stats.json"));
+}
+
 TEST_F(RunCommand, SaysWhatDidNotFitTheSmallBoard) {
   write_hills("big.obj", 200);  // 80,000 faces: 1.4 MB as they are, beyond 2 MiB with the simplifier's working space
   ASSERT_EQ(usuzumi("pack big.obj -o must.rom --default-level 1").exit_code, 0);

@@ -71,6 +71,13 @@ TEST_F(ThinCommand, SaysWhenAQuotaCannotBeReached) {
   EXPECT_NE(ran.out.find("quota was not reached"), std::string::npos);
 }
 
+TEST_F(ThinCommand, WritesNotOverItsInput) {
+  write_hills("hills.obj", 4);
+  const std::string before = text("hills.obj");
+  expect_one_line_error(usuzumi("thin hills.obj -o hills.obj --faces 5"), 2, "-o hills.obj");
+  EXPECT_EQ(text("hills.obj"), before);
+}
+
 TEST_F(ThinCommand, AnswersBadInputWithOneLine) {
   write_hills("hills.obj", 4);
   expect_one_line_error(usuzumi("thin nothing.obj -o out.ply --faces 5"), 3, "nothing.obj");

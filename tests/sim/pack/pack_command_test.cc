@@ -238,6 +238,19 @@ TEST(PackCommand, RefusesToWriteOverItsInput) {
   const auto before = testing::bytes_of_file(model);
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", model}).exit_code, 2);
   EXPECT_EQ(testing::bytes_of_file(model), before);
+  const std::string sidecar = folder.write("s.json", R"({"meshes": {"wheel": {"thinning_level": 3}}})");
+  EXPECT_EQ(run_usuzumi({"pack", model, "--sidecar", sidecar, "-o", sidecar}).exit_code, 2);
+}
+
+TEST(PackCommand, RefusesToWriteOverABufferOfItsModel) {
+  TempFolder folder;
+  GltfBuilder gltf = testing::one_triangle();
+  gltf.document["buffers"] = json::array({{{"byteLength", 36}, {"uri", "a%20plate.bin"}}});
+  const std::string model = folder.write("plate.gltf", gltf.text());
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string buffer = folder.write("a plate.bin", {reinterpret_cast<const char*>(corners), sizeof corners});
+  EXPECT_THAT(run_usuzumi({"pack", model, "-o", buffer}).err, HasSubstr("is an input as well"));
+  EXPECT_EQ(testing::bytes_of_file(buffer).size(), 36u);
 }
 
 TEST(PackCommand, HelpHasAnExample) {
