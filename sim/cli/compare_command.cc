@@ -13,6 +13,7 @@
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
+#include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
 #include "sim/image/compare.h"
 #include "sim/image/png.h"
@@ -41,9 +42,11 @@ int compare(const CompareArguments& arguments) {
   }
   if (!arguments.difference.empty())
     check_output(arguments.difference, "--diff", std::array<std::filesystem::path, 2>{arguments.expected, arguments.actual});
-  const CompareReport report =
-      compare_png_files(arguments.expected, arguments.actual, options,
-                        arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));
+  const CompareReport report = [&] {
+    const Progress progress("comparing " + arguments.actual);
+    return compare_png_files(arguments.expected, arguments.actual, options,
+                             arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));
+  }();
   if (arguments.json) {
     fmt::print("{}\n", report_json(report));
   } else if (report.result == CompareResult::kCannotCompare) {

@@ -9,6 +9,7 @@
 
 #include "sim/common/error.h"
 #include "sim/common/files.h"
+#include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
 #include "sim/pack/rom_report.h"
 
@@ -21,7 +22,10 @@ struct InspectOptions {
 };
 
 int inspect(const InspectOptions& options) {
-  const RomReport report = describe_rom(read_file(options.rom), options.rom);
+  const RomReport report = [&] {
+    const Progress progress("checking " + options.rom);
+    return describe_rom(read_file(options.rom), options.rom);
+  }();
   if (options.json) fmt::print("{}", report.json);
   if (!report.sound) throw Error(ExitCode::kBadInput, report.error);
   if (!options.json) fmt::print("{}", report.text);

@@ -7,6 +7,7 @@
 
 #include "sim/common/error.h"
 #include "sim/common/files.h"
+#include "sim/common/progress.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -54,6 +55,7 @@ bool is_mesh_file_name(const std::filesystem::path& path) {
 void write_mesh(const std::filesystem::path& path, const MeshToWrite& mesh) {
   if (!is_mesh_file_name(path))
     throw Error(ExitCode::kUsage, fmt::format("{}: meshes are written as .ply or .obj; choose one of these extensions", path.string()));
+  const Progress progress("writing " + path.string());
   write_file_atomically(path, path.extension() == ".ply" ? ply_text(mesh) : obj_text(mesh));
 }
 

@@ -19,6 +19,7 @@
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
+#include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
@@ -100,6 +101,18 @@ void print_summary(const PackOptions& options, const firmware::DrawingData& data
              options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size());
 }
 
+/// Returns the ROM, which is sound.
+std::vector<std::byte> write_rom(const PackOptions& options, const Model& model) {
+  const Progress progress("writing " + options.output);
+  std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
+  const auto opened = firmware::DrawingData::open(rom);
+  if (!opened.ok())
+    throw std::logic_error(
+        fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
+  write_file_atomically(options.output, rom);
+  return rom;
+}
+
 int pack(const PackOptions& options) {
   const std::vector<TagRule> from_options = option_rules(options), from_sidecars = sidecar_rules(options);
   const std::vector<fs::path> inputs = paths(options.inputs);
@@ -114,14 +127,9 @@ int pack(const PackOptions& options) {
   apply_tags(model, {from_options, from_sidecars, options.default_level});
   if (options.bare) note_what_bare_loses(model);
 
-  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
-  const auto opened = firmware::DrawingData::open(rom);
-  if (!opened.ok())
-    throw std::logic_error(
-        fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
-  write_file_atomically(options.output, rom);
+  const std::vector<std::byte> rom = write_rom(options, model);
   print_notes(model);
-  print_summary(options, *opened);
+  print_summary(options, *firmware::DrawingData::open(rom));
   return exit_status(ExitCode::kOk);
 }
 

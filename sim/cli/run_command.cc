@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,8 +154,11 @@ void check_combinations(const RunOptions& options) {
 int run(const RunOptions& options) {
   check_combinations(options);
   const Rgba8 background = background_option(options.background);
+  const DeskConfig config = desk_config(options);
+  std::optional<Progress> booting(std::in_place, "booting with " + options.rom);
   const auto rom = read_file(options.rom);
-  Desk desk(desk_config(options), rom, options.rom);
+  Desk desk(config, rom, options.rom);
+  booting.reset();
   const PolicyOptions policies(options.policies, desk.drawing_data());
   const firmware::ThinningSettings thinning = thinning_settings(options, policies);
   const CameraPath path(options, desk);
@@ -162,9 +166,8 @@ int run(const RunOptions& options) {
 
   std::vector<FrameRecord> records;
   {
-    Progress progress("drawing");
-    for (std::uint32_t i = 0; i < options.frames; ++i) {
-      progress.update(static_cast<double>(i) / options.frames);
+    Progress progress("drawing", options.frames);
+    for (std::uint32_t i = 0; i < options.frames; ++i, progress.step()) {
       const Desk::Shown shown = desk.draw(request_for(path.at(i), path.aspect(), thinning, background));
       records.push_back(shown.record);
       if (!options.out.empty()) write_png(picture_path(options, i), shown.picture);

@@ -18,6 +18,7 @@
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
+#include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
 #include "sim/machine/host_stopwatch.h"
 #include "sim/pack/load_model.h"
@@ -81,6 +82,7 @@ class JoinedMesh {
 };
 
 JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, bool with_colours) {
+  const Progress progress("reading " + path.string());
   const auto data = firmware::DrawingData::open(rom);
   if (!data.ok()) throw Error(ExitCode::kBadInput, fmt::format("{}: {} {}", path.string(), data.status().message, data.status().where));
   JoinedMesh joined(with_colours);
@@ -96,6 +98,7 @@ JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, boo
 }
 
 JoinedMesh join_model(const Model& model, bool with_colours) {
+  const Progress progress("joining the meshes");
   JoinedMesh joined(with_colours);
   for (const Mesh& mesh : model.meshes)
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -160,7 +163,10 @@ int thin(const ThinOptions& options) {
   mesh.face_count = faces_in;
 
   const HostStopwatch stopwatch;
-  const auto outcome = firmware::simplify_qem(mesh, {target_of(quota, faces_in), placement_option(options.placement)}, host.arena);
+  const auto outcome = [&] {
+    const Progress progress("thinning " + options.input.string());
+    return firmware::simplify_qem(mesh, {target_of(quota, faces_in), placement_option(options.placement)}, host.arena);
+  }();
   const double thin_ms = stopwatch.elapsed_ms();
   if (!outcome.ok()) throw Error(ExitCode::kDevice, fmt::format("{}: {}", options.input.string(), outcome.status().message));
 

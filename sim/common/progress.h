@@ -1,34 +1,50 @@
-// A progress bar on standard error: only on a terminal, only once the work has taken two seconds.
+// A progress bar on standard error: only on a terminal, only once the program has kept its user waiting for two seconds.
 #pragma once
 
+#include <unistd.h>
+
+#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 namespace usuzumi::sim {
 
+/// Two seconds after the program's start.
+std::chrono::steady_clock::time_point end_of_patience();
+
+/// Where a bar is drawn and from when on; tests bring terminals of their own.
+struct ProgressScreen {
+  int fd = STDERR_FILENO;
+  std::chrono::steady_clock::time_point from = end_of_patience();
+};
+
+/// Draws itself from a thread of its own for as long as it lives, so that one long step shows as well as many short ones.
+/// The thread does not survive a fork: make it after, not before.
 class Progress {
  public:
-  /// `label` says what is being done: "reading fish.obj".
-  explicit Progress(std::string label);
+  /// `label` says what is being done: "reading fish.obj". `steps` is how many there are, 0 where nobody knows.
+  explicit Progress(std::string label, std::uint64_t steps = 0, const ProgressScreen& screen = {});
   /// Wipes the bar.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Draws the bar at `fraction` (0..1). Cheap enough to call for every item.
-  void update(double fraction);
-  /// The same for work whose end is not known: a mark that moves with the time.
-  void tick();
+  /// One more step is done.
+  void step() { done_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
-  bool due();
-  void draw(const std::string& bar);
+  void show(const std::stop_token& stop) const;
+  void draw(std::chrono::steady_clock::duration elapsed) const;
 
-  std::string label_;
-  std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point next_;
-  bool terminal_;
-  bool drawn_ = false;
+  const std::string label_;
+  const std::uint64_t steps_;
+  const ProgressScreen screen_;
+  const std::chrono::steady_clock::time_point start_;
+  std::atomic<std::uint64_t> done_ = 0;
+  std::jthread thread_;  // last: it looks at the others
 };
 
 }  // namespace usuzumi::sim

@@ -85,15 +85,12 @@ void send_error(int fd, ExitCode code, const std::string& line) {
 }
 
 /// Reads until the child closes its end; false when the deadline passes first.
-bool receive(int fd, SteadyClock::time_point deadline, Progress& progress, std::vector<std::byte>& bytes) {
-  constexpr int kTickMs = 100;
+bool receive(int fd, SteadyClock::time_point deadline, std::vector<std::byte>& bytes) {
+  constexpr int kLookMs = 100;
   std::array<std::byte, 1 << 16> block;
   while (SteadyClock::now() < deadline) {
     pollfd readable{fd, POLLIN, 0};
-    if (::poll(&readable, 1, kTickMs) <= 0) {
-      progress.tick();
-      continue;
-    }
+    if (::poll(&readable, 1, kLookMs) <= 0) continue;
     const ssize_t n = ::read(fd, block.data(), block.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return true;
@@ -127,9 +124,9 @@ std::vector<std::byte> run_isolated(const std::string& what, std::chrono::second
     child(ends[1], what, work);
   }
   ::close(ends[1]);
-  Progress progress("reading " + what);
+  const Progress progress("reading " + what);
   std::vector<std::byte> answer;
-  const bool in_time = receive(ends[0], SteadyClock::now() + time_limit, progress, answer);
+  const bool in_time = receive(ends[0], SteadyClock::now() + time_limit, answer);
   ::close(ends[0]);
   if (!in_time) ::kill(pid, SIGKILL);
   const int status = wait_for(pid);

@@ -14,7 +14,7 @@ namespace usuzumi::sim {
 
 /// Runs `work` in a forked child and returns its bytes. An Error thrown by `work` is thrown here; other exceptions,
 /// signals, exhausted memory (8 GiB) and the time limit become an Error kBadInput about `what` (a file name). What the
-/// child prints is dropped. A progress mark is shown meanwhile.
+/// child prints is dropped. A progress bar is shown meanwhile.
 std::vector<std::byte> run_isolated(const std::string& what, std::chrono::seconds time_limit,
                                     const std::function<std::vector<std::byte>()>& work);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sim/common/error.h"
+#include "sim/common/progress.h"
 #include "sim/pack/gltf_file.h"
 #include "sim/pack/importers.h"
 #include "sim/pack/isolate.h"
@@ -147,6 +148,7 @@ Model load_model(const fs::path& path, const LoadOptions& options) {
     throw Error(ExitCode::kBadInput, fmt::format("{}: is a folder; name a model file in it", file));
   const std::vector<std::byte> bytes =
       run_isolated(file, options.time_limit, [&] { return model_to_bytes(import_by_extension(path)); });
+  const Progress progress("preparing " + file);
   Model model = model_from_bytes(bytes, file);
   finish(file, model);
   make_names_unique(model);

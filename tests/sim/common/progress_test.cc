@@ -1,0 +1,114 @@
+// The progress bar as a terminal receives it.
+#include "sim/common/progress.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace usuzumi::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kWipe = "\r\x1b[K";
+
+/// A terminal 60 columns wide and whoever looks at it.
+class Terminal {
+ public:
+  Terminal() {
+    const winsize size{.ws_row = 25, .ws_col = 60, .ws_xpixel = 0, .ws_ypixel = 0};
+    if (::openpty(&outer_, &inner_, nullptr, nullptr, &size) != 0) throw std::runtime_error("no pseudo terminal");
+  }
+  ~Terminal() {
+    ::close(outer_);
+    ::close(inner_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  ProgressScreen screen(Clock::time_point from = Clock::now()) const { return {inner_, from}; }
+  /// What has been shown up to the first `end`, or after half a minute without it.
+  std::string shown_until(const std::string& end) { return read(30s, end); }
+  std::string shown_within(std::chrono::milliseconds time) { return read(time, ""); }
+
+ private:
+  std::string read(std::chrono::milliseconds time, const std::string& end) {
+    std::string text;
+    const auto deadline = Clock::now() + time;
+    while ((end.empty() || text.find(end) == std::string::npos) && Clock::now() < deadline) {
+      pollfd readable{outer_, POLLIN, 0};
+      if (::poll(&readable, 1, 10) <= 0) continue;
+      std::array<char, 256> block;
+      const ssize_t n = ::read(outer_, block.data(), block.size());
+      if (n > 0) text.append(block.data(), static_cast<std::size_t>(n));
+    }
+    return text;
+  }
+  int outer_ = -1, inner_ = -1;
+};
+
+TEST(ProgressBar, ShowsOneLongStepWithItsLabelAndTimeAndIsWipedAtTheEnd) {
+  Terminal terminal;
+  {
+    Progress progress("thinning fish.obj", 0, terminal.screen());
+    EXPECT_THAT(terminal.shown_until(" 1 s"), HasSubstr("\rthinning fish.obj ["));
+  }
+  EXPECT_THAT(terminal.shown_within(200ms), EndsWith(kWipe));
+}
+
+TEST(ProgressBar, CountsStepsWhereTheirNumberIsKnown) {
+  Terminal terminal;
+  Progress progress("drawing", 4, terminal.screen());
+  EXPECT_THAT(terminal.shown_until("0 of 4"), HasSubstr("[..............................] 0 of 4"));
+  progress.step();
+  progress.step();
+  EXPECT_THAT(terminal.shown_until("2 of 4"), HasSubstr("[###############...............] 2 of 4"));
+}
+
+TEST(ProgressBar, SaysNothingBeforeItsTime) {
+  Terminal terminal;
+  {
+    Progress progress("drawing", 4, terminal.screen(Clock::now() + 1h));
+    EXPECT_THAT(terminal.shown_within(300ms), IsEmpty());
+  }
+  EXPECT_THAT(terminal.shown_within(100ms), IsEmpty()) << "there is nothing to wipe";
+}
+
+TEST(ProgressBar, SaysNothingWhereThereIsNoTerminal) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  {
+    Progress progress("drawing", 4, {ends[1], Clock::now()});
+    std::this_thread::sleep_for(300ms);
+  }
+  pollfd readable{ends[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&readable, 1, 0), 0);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST(ProgressBar, CutsItsLabelWhereTheLineWouldWrap) {
+  Terminal terminal;
+  Progress progress("reading " + std::string(200, 'x'), 0, terminal.screen());
+  std::string line = terminal.shown_until("\x1b[K");
+  line.resize(line.find("\x1b[K"));
+  EXPECT_EQ(line.size(), 60u) << "a return and 59 characters: " << line;
+  EXPECT_THAT(line, EndsWith(" s"));
+}
+
+TEST(ProgressBar, WaitsForTwoSecondsOfTheProgramsLife) {
+  EXPECT_GT(end_of_patience(), Clock::now() - 1h);
+  EXPECT_LE(end_of_patience(), Clock::now() + 2s);
+}
+
+}  // namespace
+}  // namespace usuzumi::sim
