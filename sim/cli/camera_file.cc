@@ -8,20 +8,20 @@
 
 #include "firmware/scene/trigonometry.h"
 #include "sim/common/error.h"
-#include "sim/common/files.h"
+#include "sim/common/strict_json.h"
 
 namespace usuzumi::sim {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 class FrameReader {
  public:
   FrameReader(const std::string& where, const json& object) : where_(where), object_(object) {
-    if (!object.is_object()) fail("must be an object with \"eye\" and \"target\"");
+    if (!object.is_object()) fail("a camera must be an object with \"eye\" and \"target\"");
     for (const auto& [key, value] : object.items())
       if (std::find(std::begin(kKeys), std::end(kKeys), key) == std::end(kKeys))
-        fail(fmt::format("has \"{}\", which is none of eye, target, up, fov_y_deg, near, far", key));
+        fail(fmt::format("\"{}\" is none of eye, target, up, fov_y_deg, near, far", key));
   }
 
   firmware::Camera read(const firmware::Bounds& bounds) const {
@@ -49,7 +49,7 @@ class FrameReader {
     const auto found = object_.find(key);
     if (found == object_.end()) {
       if (otherwise != nullptr) return *otherwise;
-      fail(fmt::format("has no \"{}\": give three numbers", key));
+      fail(fmt::format("there is no \"{}\": give three numbers", key));
     }
     const bool three = found->is_array() && found->size() == 3 && (*found)[0].is_number() && (*found)[1].is_number() && (*found)[2].is_number();
     if (!three) fail(fmt::format("\"{}\" must be three numbers", key));
@@ -70,19 +70,22 @@ class FrameReader {
 }  // namespace
 
 std::vector<firmware::Camera> read_camera_file(const std::filesystem::path& path, const firmware::Bounds& bounds) {
-  const auto bytes = read_file(path, std::uint64_t{64} << 20);
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const json file = json::parse(text, text + bytes.size(), nullptr, false);
-  if (file.is_discarded()) throw Error(ExitCode::kBadInput, fmt::format("{}: not JSON; see `usuzumi run --help` for a camera file", path.string()));
+  const json file = read_strict_json(path);
   std::vector<firmware::Camera> cameras;
   if (!file.is_object() || !file.contains("frames")) {
-    cameras.push_back(FrameReader(path.string() + ": the camera", file).read(bounds));
+    cameras.push_back(FrameReader(path.string() + ":", file).read(bounds));
     return cameras;
   }
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::kBadInput, fmt::format("{}: {}", path.string(), why));
+  };
+  for (const auto& [key, value] : file.items())
+    if (key != "frames")
+      refuse(fmt::format("\"{}\" beside \"frames\" is not known here; move it into the frames or remove it", key));
   const json& frames = file["frames"];
-  if (!frames.is_array() || frames.empty()) throw Error(ExitCode::kBadInput, fmt::format("{}: \"frames\" must be a list of cameras", path.string()));
+  if (!frames.is_array() || frames.empty()) refuse("\"frames\" must be a list of cameras");
   for (std::size_t i = 0; i < frames.size(); ++i)
-    cameras.push_back(FrameReader(fmt::format("{}: frame {}", path.string(), i), frames[i]).read(bounds));
+    cameras.push_back(FrameReader(fmt::format("{}: frame {}:", path.string(), i), frames[i]).read(bounds));
   return cameras;
 }
 

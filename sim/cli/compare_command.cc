@@ -41,11 +41,13 @@ int compare(const CompareArguments& arguments) {
     options.ignore.push_back(*rectangle);
   }
   if (!arguments.difference.empty())
-    check_output(arguments.difference, "--diff", std::array<std::filesystem::path, 2>{arguments.expected, arguments.actual});
+    check_output(arguments.difference, "--diff",
+                 std::array<std::filesystem::path, 2>{arguments.expected, arguments.actual});
   const CompareReport report = [&] {
     const Progress progress("comparing " + arguments.actual);
-    return compare_png_files(arguments.expected, arguments.actual, options,
-                             arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));
+    return compare_png_files(
+        arguments.expected, arguments.actual, options,
+        arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));
   }();
   if (arguments.json) {
     fmt::print("{}\n", report_json(report));
@@ -70,7 +72,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   command->add_option("--max-pixels", arguments->max_pixels, "Pixels that may differ")
       ->transform(whole_number(0, kMostPngPixels))
       ->capture_default_str();
-  command->add_option("--ignore", arguments->ignore, "Rectangle to leave out, x0:y0-x1:y1, both corners included. May be given several times")
+  command
+      ->add_option("--ignore", arguments->ignore,
+                   "Rectangle to leave out, x0:y0-x1:y1, both corners included. May be given several times")
       ->allow_extra_args(false);  // so that a picture may follow
   command->add_option("--diff", arguments->difference, "PNG to write: where the pictures differ, in red");
   command->add_flag("--json", arguments->json, "Report as JSON");

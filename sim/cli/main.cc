@@ -12,6 +12,19 @@
 #include "sim/cli/thin_command.h"
 #include "sim/common/error.h"
 
+namespace {
+
+/// A variable that a script forgot to set must not count as an option that was not given.
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected() > 0)
+        option->check(
+            [](const std::string& value) { return value.empty() ? std::string("must not be empty") : std::string(); });
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace usuzumi::sim;
   int exit_code = exit_status(ExitCode::kOk);
@@ -24,6 +37,7 @@ int main(int argc, char** argv) {
   add_thin_command(app, exit_code);
   add_run_command(app, exit_code);
   add_compare_command(app, exit_code);
+  refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](CLI::App* command) { return command->check_name(argv[1]); }).empty()) {
     fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", argv[1]);
     return exit_status(ExitCode::kUsage);

@@ -48,15 +48,15 @@ std::string obj_text(const MeshToWrite& mesh) {
 
 }  // namespace
 
-bool is_mesh_file_name(const std::filesystem::path& path) {
-  return path.extension() == ".ply" || path.extension() == ".obj";
-}
+bool is_mesh_file_name(const std::filesystem::path& path) { return keeps_colours(path) || path.extension() == ".obj"; }
+
+bool keeps_colours(const std::filesystem::path& path) { return path.extension() == ".ply"; }
 
 void write_mesh(const std::filesystem::path& path, const MeshToWrite& mesh) {
   if (!is_mesh_file_name(path))
     throw Error(ExitCode::kUsage, fmt::format("{}: meshes are written as .ply or .obj; choose one of these extensions", path.string()));
   const Progress progress("writing " + path.string());
-  write_file_atomically(path, path.extension() == ".ply" ? ply_text(mesh) : obj_text(mesh));
+  write_file_atomically(path, keeps_colours(path) ? ply_text(mesh) : obj_text(mesh));
 }
 
 }  // namespace usuzumi::sim

@@ -18,6 +18,9 @@ struct MeshToWrite {
 /// Whether the extension is one that write_mesh() knows: .ply (binary, little-endian) or .obj.
 bool is_mesh_file_name(const std::filesystem::path& path);
 
+/// Whether a file of that extension has a place for colours: .ply.
+bool keeps_colours(const std::filesystem::path& path);
+
 /// Positions are written without loss. Throws Error kUsage for another extension, kCannotWrite.
 void write_mesh(const std::filesystem::path& path, const MeshToWrite& mesh);
 

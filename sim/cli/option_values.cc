@@ -48,7 +48,8 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
 PictureSize size_option(const std::string& option, const std::string& value) {
   const auto x = value.find('x');
   if (x != std::string::npos) {
-    const auto width = parse_whole_number(value.substr(0, x), kMostSize), height = parse_whole_number(value.substr(x + 1), kMostSize);
+    const auto width = parse_whole_number(value.substr(0, x), kMostSize),
+               height = parse_whole_number(value.substr(x + 1), kMostSize);
     if (width && height && *width >= kLeastSize && *height >= kLeastSize)
       return {static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
   }

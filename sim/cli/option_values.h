@@ -30,7 +30,7 @@ PictureSize size_option(const std::string& option, const std::string& value);
 /// Decimal digits and nothing else; nullopt also above `most`.
 std::optional<std::uint64_t> parse_whole_number(std::string_view text, std::uint64_t most);
 
-/// For CLI::Option::transform() of numbers without a sign: the parser by itself takes -1 for 2^64 - 1 and 010 for eight.
+/// For CLI::Option::transform(): the parser by itself takes -1 for 2^64 - 1 and 010 for eight.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
 }  // namespace usuzumi::sim

@@ -85,9 +85,8 @@ std::vector<fs::path> paths(const std::vector<std::string>& names) { return {nam
 
 void print_notes(const Model& model) {
   constexpr std::size_t kMost = 30;
-  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i)
-    fmt::print(stderr, "note: {}\n", model.notes[i]);
-  if (model.notes.size() > kMost) fmt::print(stderr, "note: and {} more of this kind\n", model.notes.size() - kMost);
+  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i) print_note(model.notes[i]);
+  if (model.notes.size() > kMost) print_note(fmt::format("and {} more of this kind", model.notes.size() - kMost));
 }
 
 /// Counted in the ROM, not in the model: a bare mesh repeats vertices to stay one strip.

@@ -8,10 +8,12 @@
 #include "sim/cli/option_values.h"
 #include "sim/common/error.h"
 #include "sim/pack/names.h"
+#include "sim/pack/rom_report.h"
 
 namespace usuzumi::sim {
 namespace {
 
+using firmware::Level;
 using firmware::Policy;
 using firmware::PolicyKind;
 
@@ -32,19 +34,21 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
-/// Numbers of the meshes, of whatever level, whose name matches one of the patterns; rising.
-std::vector<std::uint32_t> named_meshes(const std::string& word, std::string_view patterns, const firmware::DrawingData& data) {
-  std::vector<std::string> names;
-  data.for_each_mesh([&](const firmware::MeshView& mesh) { names.emplace_back(mesh.name); });
+bool policy_rules(const NamedMesh& mesh, bool for_delete, bool for_collapse) {
+  return (for_delete && mesh.level == Level::kDelete) || (for_collapse && mesh.level == Level::kCollapse);
+}
+
+/// Numbers of the meshes, of whatever level, whose name matches the pattern.
+std::vector<std::uint32_t> matching(const std::string& word, const std::string& pattern,
+                                    std::span<const NamedMesh> meshes) {
   std::vector<std::uint32_t> numbers;
-  for (const std::string& pattern : split(patterns, ',')) {
-    const std::size_t before = numbers.size();
-    for (std::uint32_t n = 0; n < names.size(); ++n)
-      if (matches_pattern(pattern, names[n])) numbers.push_back(n);
-    if (numbers.size() == before) refuse(word, fmt::format("no mesh is called {}; {}", pattern, suggest(pattern, names)));
+  for (std::uint32_t n = 0; n < meshes.size(); ++n)
+    if (matches_pattern(pattern, meshes[n].name)) numbers.push_back(n);
+  if (numbers.empty()) {
+    std::vector<std::string> names;
+    for (const NamedMesh& mesh : meshes) names.push_back(mesh.name);
+    refuse(word, fmt::format("no mesh is called {}; {}", pattern, suggest(pattern, names)));
   }
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
@@ -62,11 +66,19 @@ void set_random(const std::string& word, std::string_view argument, Policy& poli
 
 }  // namespace
 
-PolicyOptions::PolicyOptions(std::span<const std::string> words, const firmware::DrawingData& data) {
-  for (const std::string& word : words) parse(word, data);
+std::vector<NamedMesh> named_meshes(const firmware::DrawingData& data) {
+  std::vector<NamedMesh> meshes;
+  data.for_each_mesh([&](const firmware::MeshView& mesh) { meshes.push_back({std::string(mesh.name), mesh.level}); });
+  return meshes;
 }
 
-void PolicyOptions::parse(const std::string& word, const firmware::DrawingData& data) {
+PolicyOptions::PolicyOptions(std::span<const std::string> words, const firmware::DrawingData& data) {
+  if (words.empty()) return;
+  const std::vector<NamedMesh> meshes = named_meshes(data);
+  for (const std::string& word : words) parse(word, meshes);
+}
+
+void PolicyOptions::parse(const std::string& word, std::span<const NamedMesh> meshes) {
   std::string_view rest = word;
   bool for_delete = true, for_collapse = true;
   if (rest.starts_with("2=") || rest.starts_with("3=")) {
@@ -77,8 +89,10 @@ void PolicyOptions::parse(const std::string& word, const firmware::DrawingData& 
   const auto colon = rest.find(':');
   const std::string_view name = rest.substr(0, colon);
   const std::string_view argument = colon == std::string_view::npos ? std::string_view{} : rest.substr(colon + 1);
-  Policy policy;
-  std::vector<std::uint32_t> chosen;
+  const char* const levels = for_delete && for_collapse ? "2 or 3" : for_delete ? "2" : "3";
+  const auto ruled = [&](const NamedMesh& mesh) { return policy_rules(mesh, for_delete, for_collapse); };
+  ForLevel given{word, {}, {}};
+  Policy& policy = given.policy;
   if (name == "always" && colon == std::string_view::npos) {
     policy.kind = PolicyKind::kAlways;
   } else if (name == "below-area") {
@@ -88,21 +102,39 @@ void PolicyOptions::parse(const std::string& word, const firmware::DrawingData& 
     policy.area_threshold_px = static_cast<float>(*pixels);
   } else if (name == "chosen" && !argument.empty()) {
     policy.kind = PolicyKind::kChosen;
-    chosen = named_meshes(word, argument, data);
+    for (const std::string& pattern : split(argument, ',')) {
+      const auto numbers = matching(word, pattern, meshes);
+      if (std::none_of(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return ruled(meshes[n]); }))
+        notes_.push_back(fmt::format("--policy {}: choosing {} has no effect: its level is {}, the policy is for {}",
+                                     word, pattern, level_label(static_cast<unsigned>(meshes[numbers.front()].level)),
+                                     levels));
+      given.chosen.insert(given.chosen.end(), numbers.begin(), numbers.end());
+    }
+    std::sort(given.chosen.begin(), given.chosen.end());
+    given.chosen.erase(std::unique(given.chosen.begin(), given.chosen.end()), given.chosen.end());
   } else if (name == "random") {
     set_random(word, argument, policy);
   } else {
     refuse(word, "must be always, below-area:PIXELS, chosen:NAME[,NAME...] or random:SHARE%[:SEED], with 2= or 3= before it for one level");
   }
-  if (for_delete) delete_policy_ = policy, chosen_for_delete_ = chosen;
-  if (for_collapse) collapse_policy_ = policy, chosen_for_collapse_ = chosen;
+  if (std::none_of(meshes.begin(), meshes.end(), ruled))
+    notes_.push_back(fmt::format("--policy {} has no effect: no mesh has level {}", word, levels));
+  if (for_delete) set(delete_, "2", given);
+  if (for_collapse) set(collapse_, "3", given);
+}
+
+void PolicyOptions::set(ForLevel& level, const char* number, const ForLevel& given) {
+  if (!level.word.empty())
+    refuse(given.word,
+           fmt::format("level {} has its policy from --policy {}; give each level one", number, level.word));
+  level = given;
 }
 
 void PolicyOptions::apply(firmware::ThinningSettings& settings) const {
-  settings.delete_policy = delete_policy_;
-  settings.delete_policy.chosen = chosen_for_delete_;
-  settings.collapse_policy = collapse_policy_;
-  settings.collapse_policy.chosen = chosen_for_collapse_;
+  settings.delete_policy = delete_.policy;
+  settings.delete_policy.chosen = delete_.chosen;
+  settings.collapse_policy = collapse_.policy;
+  settings.collapse_policy.chosen = collapse_.chosen;
 }
 
 }  // namespace usuzumi::sim

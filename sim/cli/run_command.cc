@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/scene/camera.h"
@@ -44,7 +46,7 @@ struct RunOptions {
   std::string camera;
   std::string thin = "on";
   std::string quota;
-  std::string placement = "optimal";
+  std::string placement;
   std::vector<std::string> policies;
   std::string engine = "soft";
   std::uint32_t threads = 1;
@@ -82,6 +84,7 @@ class CameraPath {
     return firmware::orbit(bounds_, kStandardAzimuth + 2 * firmware::kPi * frame / frames_, kStandardElevation, aspect_);
   }
   float aspect() const { return aspect_; }
+  std::size_t cameras() const { return cameras_.size(); }  // of the file
 
  private:
   firmware::Bounds bounds_;
@@ -145,10 +148,27 @@ void prepare_outputs(const RunOptions& options) {
 
 void check_combinations(const RunOptions& options) {
   if (options.orbit && !options.camera.empty()) throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
-  if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty()))
-    throw Error(ExitCode::kUsage, "--thin off leaves nothing for --quota or --policy to do: drop one of them");
+  if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty() || !options.placement.empty()))
+    throw Error(ExitCode::kUsage,
+                "--thin off leaves nothing for --quota, --policy or --placement to do: drop one of them");
   if (options.engine == "osmesa" && options.threads != 1)
     throw Error(ExitCode::kUsage, "--threads is for the soft engine: OSMesa takes its number from LP_NUM_THREADS");
+}
+
+/// Says which options are in order but change nothing, so that nobody waits for what they should do.
+void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const PolicyOptions& policies,
+                             const CameraPath& path) {
+  for (const std::string& note : policies.notes()) print_note(note);
+  const auto meshes = named_meshes(desk.drawing_data());
+  const bool any_collapse = std::any_of(meshes.begin(), meshes.end(),
+                                        [](const NamedMesh& mesh) { return mesh.level == firmware::Level::kCollapse; });
+  for (const auto& [option, value] : {std::pair{"--quota", options.quota}, {"--placement", options.placement}})
+    if (!any_collapse && !value.empty())
+      print_note(fmt::format("{} {} has no effect: no mesh has level 3", option, value));
+  if (options.orbit && options.frames == 1) print_note("--orbit has no effect on one frame; give --frames");
+  if (path.cameras() > options.frames)
+    print_note(fmt::format("{}: {} cameras for {} frame(s); give --frames {} to use them all", options.camera,
+                           path.cameras(), options.frames, path.cameras()));
 }
 
 int run(const RunOptions& options) {
@@ -163,6 +183,7 @@ int run(const RunOptions& options) {
   const firmware::ThinningSettings thinning = thinning_settings(options, policies);
   const CameraPath path(options, desk);
   prepare_outputs(options);
+  note_what_has_no_effect(options, desk, policies, path);
 
   std::vector<FrameRecord> records;
   {
@@ -189,7 +210,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("ROM", options->rom, "ROM image: container or bare drawing data")->required();
   command->add_option("--board", options->board, "The device's memories and clocks")->check(CLI::IsMember(board_names))->capture_default_str();
   command->add_option("--size", options->size, "Picture, WIDTHxHEIGHT in pixels; without it the board's panel");
-  command->add_option("--frames", options->frames, "Frames to draw")->transform(whole_number(1, kMostFrames))->capture_default_str();
+  command->add_option("--frames", options->frames, "Frames to draw")
+      ->transform(whole_number(1, kMostFrames))
+      ->capture_default_str();
   command->add_flag("--orbit", options->orbit, "Turn once around the model over the frames");
   command->add_option("--camera", options->camera,
                       "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, \"near\": …, \"far\": …}, …]}");
@@ -198,13 +221,16 @@ void add_run_command(CLI::App& app, int& exit_code) {
                       "Faces for level-3 meshes instead of the authors' quotas: N over all of them, or P% of each");
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
       ->check(CLI::IsMember({"optimal", "midpoint"}))
-      ->capture_default_str();
-  command->add_option("--policy", options->policies,
-                      "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], random:SHARE%[:SEED]; "
-                      "with 2= or 3= before it for one level. May be given several times")
+      ->default_str("optimal");
+  command
+      ->add_option("--policy", options->policies,
+                   "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], "
+                   "random:SHARE%[:SEED]; "
+                   "with 2= or 3= before it for one level. May be given several times")
       ->allow_extra_args(false);  // so that a ROM may follow
   command->add_option("--engine", options->engine, "3D engine")->check(CLI::IsMember({"soft", "osmesa"}))->capture_default_str();
-  command->add_option("--threads", options->threads, "Host threads of the soft engine; the pictures do not depend on it")
+  command
+      ->add_option("--threads", options->threads, "Host threads of the soft engine; the pictures do not depend on it")
       ->transform(whole_number(1, kMostThreads))
       ->capture_default_str();
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();

@@ -145,6 +145,9 @@ std::span<T> copied_into(Arena& arena, const std::vector<T>& source) {
 int thin(const ThinOptions& options) {
   if (!is_mesh_file_name(options.output))
     throw Error(ExitCode::kUsage, fmt::format("-o {}: meshes are written as .ply or .obj; choose one of these extensions", options.output.string()));
+  if (options.colours && !keeps_colours(options.output))
+    throw Error(ExitCode::kUsage, fmt::format("--colours: {} cannot hold them; write a .ply or leave --colours out",
+                                              options.output.string()));
   const FaceQuota quota = quota_option("--faces", options.faces);
   check_output(options.output, "-o", std::array{options.input});
   const JoinedMesh joined = load_joined(options.input, options.colours);

@@ -152,7 +152,8 @@ void check_output(const fs::path& path, std::string_view option, std::span<const
   for (const fs::path& input : inputs) {
     std::error_code none;
     if (fs::equivalent(input, path, none))
-      throw Error(ExitCode::kUsage, fmt::format("{} {}: is an input as well; choose another name", option, path.string()));
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{} {}: is an input as well; choose another name", option, path.string()));
   }
   const fs::path target = replaced_path(path);
   const FileBeside trial(target);

@@ -15,8 +15,8 @@ namespace usuzumi::sim {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes = std::uint64_t{4} << 30);
 
 /// Looks at an output's name before the work that leads to it: what write_file_atomically() would say only afterwards.
-/// `option` is how the name was given ("--stats"), `inputs` are the files that the same command reads. Throws Error kUsage
-/// where the output is one of them, also through a link, and kCannotWrite. Leaves no trace.
+/// `option` is how the name was given ("--stats"), `inputs` are the files that the same command reads. Throws Error
+/// kUsage where the output is one of them, also through a link, and kCannotWrite. Leaves no trace.
 void check_output(const std::filesystem::path& path, std::string_view option,
                   std::span<const std::filesystem::path> inputs);
 

@@ -22,8 +22,10 @@ constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 constexpr std::size_t kBarCells = 30;
 constexpr std::size_t kUsualColumns = 80;
 
-/// Past the formatted streams: the thread shares none of their locks with the work. A bar that cannot be written is none.
-void write_to(int fd, std::string_view text) { [[maybe_unused]] const ssize_t written = ::write(fd, text.data(), text.size()); }
+/// Past the formatted streams: the thread shares none of their locks with the work.
+void write_to(int fd, std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(fd, text.data(), text.size());
+}
 
 std::size_t columns_of(int fd) {
   winsize size{};

@@ -1,4 +1,4 @@
-// A progress bar on standard error: only on a terminal, only once the program has kept its user waiting for two seconds.
+// A progress bar on standard error: only on a terminal, only once the user has waited for two seconds.
 #pragma once
 
 #include <unistd.h>
@@ -21,7 +21,7 @@ struct ProgressScreen {
   std::chrono::steady_clock::time_point from = end_of_patience();
 };
 
-/// Draws itself from a thread of its own for as long as it lives, so that one long step shows as well as many short ones.
+/// Draws itself from a thread of its own, so that one long step shows as well as many short ones.
 /// The thread does not survive a fork: make it after, not before.
 class Progress {
  public:

@@ -29,4 +29,6 @@ void report_errors(int& exit_code, const std::function<int()>& body) {
   }
 }
 
+void print_note(const std::string& line) { fmt::print(stderr, "note: {}\n", line); }
+
 }  // namespace usuzumi::sim

@@ -1,21 +1,20 @@
 #include "sim/pack/levels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <vector>
 
 #include "sim/common/error.h"
-#include "sim/common/files.h"
+#include "sim/common/strict_json.h"
 #include "sim/pack/names.h"
 #include "sim/pack/tag_values.h"
 
 namespace usuzumi::sim {
 namespace {
 
-using json = nlohmann::ordered_json;  // later rules win, so their order matters
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kLevelDelete = 2, kLevelCollapse = 3;
@@ -46,25 +45,6 @@ std::vector<Tags> matched_tags(const Model& model, std::span<const TagRule> rule
   return tags;
 }
 
-/// JSON with the names in each object checked to be different: of two the parser would keep one and not say so.
-json parse_strictly(const std::string& file, const std::vector<std::byte>& bytes) {
-  std::vector<std::set<std::string>> keys;
-  auto watch = [&](int, json::parse_event_t event, json& parsed) -> bool {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("{}: \"{}\" stands twice in one object; remove one", file, parsed.get<std::string>()));
-    return true;
-  };
-  try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    return json::parse(text, text + bytes.size(), watch);
-  } catch (const json::parse_error& e) {
-    throw Error(ExitCode::kBadInput, fmt::format("{}: not JSON: error at byte {}; mend the file", file, e.byte));
-  }
-}
-
 void note_unused_properties(Model& model) {
   for (const Mesh& mesh : model.meshes) {
     const std::uint32_t level = mesh.tags.level.value_or(0);
@@ -93,16 +73,19 @@ TagRule rule_from_option(std::string_view option, const std::string& argument, s
 std::vector<TagRule> read_sidecar(const fs::path& path) {
   const std::string file = path.string();
   auto refuse = [&](const std::string& why) { throw Error(ExitCode::kBadInput, fmt::format("{}: {}", file, why)); };
-  const json root = parse_strictly(file, read_file(path));
+  const nlohmann::ordered_json root = read_strict_json(path);  // later rules win, so their order matters
   if (!root.is_object() || !root.contains("meshes") || !root["meshes"].is_object())
     refuse("a sidecar is {\"meshes\": {\"NAME\": {\"thinning_level\": 3, …}}}; see usuzumi pack --help");
   for (const auto& [key, value] : root.items())
     if (key != "meshes") refuse(fmt::format("\"{}\" is not known here; only \"meshes\" is", key));
+  if (root["meshes"].empty()) refuse("\"meshes\" names no mesh, so the file does nothing; fill it in or leave it out");
   const std::vector<std::string> known(kTagKeys.begin(), kTagKeys.end());
   std::vector<TagRule> rules;
   for (const auto& [pattern, properties] : root["meshes"].items()) {
     TagRule rule{pattern, {}, fmt::format("{}: meshes.{}", file, pattern)};
     if (!properties.is_object()) refuse(fmt::format("meshes.{} must be an object of properties", pattern));
+    if (properties.empty())
+      refuse(fmt::format("meshes.{} gives no property; give one of {}", pattern, fmt::join(known, ", ")));
     for (const auto& [key, value] : properties.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
         refuse(fmt::format("meshes.{}: property \"{}\" is not known; {}", pattern, key, suggest(key, known)));
@@ -119,12 +102,19 @@ void apply_tags(Model& model, const TagSources& sources) {
   const std::vector<Tags> sidecars = matched_tags(model, sources.sidecars, ExitCode::kBadInput);
   Tags fallback;
   fallback.level = sources.default_level;
-  bool any_level = false;
+  bool any_level = false, any_default = false;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     Tags& tags = model.meshes[m].tags;
-    tags = merge_tags(merge_tags(merge_tags(options[m], sidecars[m]), tags), fallback);
+    tags = merge_tags(merge_tags(options[m], sidecars[m]), tags);
+    any_default = any_default || !tags.level;
+    tags = merge_tags(tags, fallback);
     any_level = any_level || tags.level;
   }
+  // First, so that no crowd of other notes hides it.
+  if (fallback.level && !any_default)
+    model.notes.insert(
+        model.notes.begin(),
+        fmt::format("--default-level {} has no effect: every mesh has a level already", *fallback.level));
   note_unused_properties(model);
   if (!any_level)
     model.notes.push_back(

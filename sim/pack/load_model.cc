@@ -61,7 +61,8 @@ Model import_by_extension(const fs::path& path) {
   const GltfFile file = open_gltf(path);
   Model model = file.version_major == 2 ? import_gltf(path, file) : import_assimp(path, &file);
   if (file.version_major == 1) label_gltf1(file, model);
-  for (const auto& [name, bytes] : file.buffer_files) model.buffer_files.push_back((path.parent_path() / name).string());
+  for (const auto& [name, bytes] : file.buffer_files)
+    model.buffer_files.push_back((path.parent_path() / name).string());
   return model;
 }
 

@@ -177,8 +177,69 @@ TEST_F(RunCommand, WritesOverNoneOfItsInputs) {
   EXPECT_EQ(text("path.json"), camera);
 }
 
+TEST_F(RunCommand, RefusesOptionsThatContradictEachOther) {
+  expect_one_line_error(usuzumi("run hills.rom --thin off --placement midpoint"), 2, "--placement");
+  expect_one_line_error(usuzumi("run hills.rom --thin off --placement optimal"), 2, "--placement");
+  expect_one_line_error(usuzumi("run hills.rom --policy 2=always --policy 2=random:50%"), 2,
+                        "level 2 has its policy from --policy 2=always");
+  expect_one_line_error(usuzumi("run hills.rom --policy always --policy 3=random:50%"), 2,
+                        "level 3 has its policy from --policy always");
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --policy 2=always --policy 3=random:50%").exit_code, 0);
+}
+
+TEST_F(RunCommand, SaysWhichOptionsHaveNoEffect) {
+  write("three.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no body\nf 1 2 3\no lamp\nf 1 2 3\no rest\nf 1 2 3\n");
+  ASSERT_EQ(usuzumi("pack three.obj -o three.rom --level body=1 --level lamp=2 --level rest=0").exit_code, 0);
+  const auto notes = [&](const std::string& options) {
+    const Ran ran = usuzumi("run --size 160x96 " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return ran.err;
+  };
+  EXPECT_EQ(notes("three.rom --quota 50"), "note: --quota 50 has no effect: no mesh has level 3\n");
+  EXPECT_EQ(notes("three.rom --placement midpoint"), "note: --placement midpoint has no effect: no mesh has level 3\n");
+  EXPECT_EQ(notes("three.rom --policy 3=always"), "note: --policy 3=always has no effect: no mesh has level 3\n");
+  EXPECT_EQ(notes("hills.rom --policy 2=always"), "note: --policy 2=always has no effect: no mesh has level 2\n");
+  EXPECT_EQ(
+      notes("three.rom --policy chosen:lamp,body"),
+      "note: --policy chosen:lamp,body: choosing body has no effect: its level is 1 keep, the policy is for 2 or 3\n");
+  EXPECT_EQ(notes("three.rom --policy chosen:lamp"), "");
+  EXPECT_EQ(notes("hills.rom --quota 50 --placement midpoint --policy always"), "");
+  EXPECT_EQ(notes("hills.rom --orbit"), "note: --orbit has no effect on one frame; give --frames\n");
+  const std::string camera = R"({"eye": [10, 30, 40], "target": [10, 0, 10]})";
+  write("path.json", R"({"frames": [)" + camera + "," + camera + "]}");
+  EXPECT_EQ(notes("hills.rom --camera path.json"),
+            "note: path.json: 2 cameras for 1 frame(s); give --frames 2 to use them all\n");
+  EXPECT_EQ(notes("hills.rom --camera path.json --frames 2"), "");
+}
+
+TEST_F(RunCommand, TakesNoEmptyValueForAnOptionLeftOut) {
+  for (const char* option : {"--size", "--out", "--stats", "--camera", "--quota", "--policy", "--background"})
+    expect_one_line_error(usuzumi(std::string("run hills.rom ") + option + " ''"), 2, option);
+  expect_one_line_error(usuzumi("compare hills.rom hills.rom --diff ''"), 2, "--diff");
+  expect_one_line_error(usuzumi("pack '' -o out.rom"), 2, "INPUT");
+}
+
+TEST_F(RunCommand, TakesNothingFromACameraFileThatItWouldNotUse) {
+  const std::string camera = R"("eye": [10, 30, 40], "target": [10, 0, 10])";
+  const std::pair<std::string, const char*> files[] = {
+      {R"({"frames": [{)" + camera + R"(}], "loop": true})", "\"loop\""},
+      {"{" + camera + R"(, "eye": [0, 0, 1]})", "\"eye\" stands twice"},
+      {R"({"frames": [{)" + camera + R"(, "fov": 40}]})", "frame 0: \"fov\" is none of"},
+      {R"({"frames": [{"target": [10, 0, 10]}]})", "frame 0: there is no \"eye\""},
+      {R"({"frames": 3})", "must be a list"},
+      {R"([1])", "must be an object"},
+      {"{" + camera + R"(, "near": 1e999})", "too large"},
+      {"{", "not JSON"},
+  };
+  for (const auto& [content, about] : files) {
+    write("path.json", content);
+    expect_one_line_error(usuzumi("run hills.rom --camera path.json"), 3, about);
+  }
+}
+
 TEST_F(RunCommand, LooksForRoomForItsOutputsBeforeItDraws) {
-  const std::string a_long_run = "run hills.rom --size 160x96 --orbit --frames 1000000 ";  // stopped by the test's time limit
+  const std::string a_long_run =
+      "run hills.rom --size 160x96 --orbit --frames 1000000 ";  // stopped by the test's time limit
   expect_one_line_error(usuzumi(a_long_run + "--stats missing/stats.json"), 4, "missing");
   expect_one_line_error(usuzumi(a_long_run + "--out /dev/null/pictures"), 4, "choose another place");
   expect_one_line_error(usuzumi(a_long_run + "--out /proc"), 4, "/proc/frame-0000.png");

@@ -71,6 +71,12 @@ TEST_F(ThinCommand, SaysWhenAQuotaCannotBeReached) {
   EXPECT_NE(ran.out.find("quota was not reached"), std::string::npos);
 }
 
+TEST_F(ThinCommand, RefusesColoursWhereTheFileHasNoPlaceForThem) {
+  write_hills("hills.obj", 4);
+  expect_one_line_error(usuzumi("thin hills.obj -o out.obj --faces 5 --colours"), 2, "--colours: out.obj");
+  EXPECT_EQ(usuzumi("thin hills.obj -o out.ply --faces 5 --colours").exit_code, 0);
+}
+
 TEST_F(ThinCommand, WritesNotOverItsInput) {
   write_hills("hills.obj", 4);
   const std::string before = text("hills.obj");

@@ -154,6 +154,9 @@ TEST(PackCommand, BadSidecarsAreRefusedByTheirFault) {
       {"[]", "a sidecar is"},
       {R"({"mesh": {}})", "a sidecar is"},
       {R"({"meshes": {}, "colour": 1})", "\"colour\""},
+      {R"({"meshes": {}})", "names no mesh"},
+      {R"({"meshes": {"wheel": {}}})", "meshes.wheel gives no property"},
+      {R"({"meshes": {"wheel": {"area_threshold_px": 1e999}}})", "too large"},
       {R"({"meshes": {"wheel": 3}})", "meshes.wheel"},
       {R"({"meshes": {"wheel": {"thining_level": 3}}})", "did you mean thinning_level"},
       {R"({"meshes": {"wheel": {"thinning_level": 9}}})", "not 9"},
@@ -172,6 +175,15 @@ TEST(PackCommand, SaysWhenNoMeshHasALevelAndNamesBlendersOption) {
               HasSubstr("Export glTF > Include > Data > Custom Properties"));
   EXPECT_THAT(run_usuzumi({"pack", model, "-o", folder / "out.rom", "--default-level", "1"}).err,
               Not(HasSubstr("Blender")));
+}
+
+TEST(PackCommand, SaysWhenTheDefaultLevelIsNobodys) {
+  TempFolder folder;
+  const auto notes = [&](const char* level) {
+    return run_usuzumi({"pack", car(folder), "-o", folder / "out.rom", "--level", level, "--default-level", "2"}).err;
+  };
+  EXPECT_EQ(notes("*=3"), "note: --default-level 2 has no effect: every mesh has a level already\n");
+  EXPECT_EQ(notes("wheel#2=3"), "");
 }
 
 TEST(PackCommand, SaysWhatALevelDoesNotUse) {
