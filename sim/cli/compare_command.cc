@@ -50,7 +50,7 @@ int compare(const CompareArguments& arguments) {
         arguments.difference.empty() ? std::nullopt : std::optional<std::filesystem::path>(arguments.difference));
   }();
   if (arguments.json) {
-    fmt::print("{}\n", report_json(report));
+    fmt::print("{}", report_json(report));
   } else if (report.result == CompareResult::kCannotCompare) {
     throw Error(ExitCode::kUsage, report.reason);
   } else {

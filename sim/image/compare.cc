@@ -45,6 +45,9 @@ void note_difference(CompareReport& report, const DifferingPixel& pixel) {
 
 std::string colour(std::uint32_t rgb) { return fmt::format("#{:06X}", rgb & 0xFFFFFF); }
 
+/// As parse_rectangle() takes it.
+std::string rectangle_text(const Rectangle& r) { return fmt::format("{}:{}-{}:{}", r.x0, r.y0, r.x1, r.y1); }
+
 const char* result_name(CompareResult result) {
   switch (result) {
     case CompareResult::kSame: return "same";
@@ -84,8 +87,13 @@ int exit_code(CompareResult result) {
 
 CompareReport compare_images(const Image& expected, const Image& actual, const CompareOptions& options) {
   if (expected.width != actual.width || expected.height != actual.height)
-    return cannot_compare(fmt::format("sizes differ: expected {}x{}, actual {}x{}", expected.width, expected.height,
-                                      actual.width, actual.height));
+    return cannot_compare(fmt::format("sizes differ: expected {}x{}, actual {}x{}; draw both at one size",
+                                      expected.width, expected.height, actual.width, actual.height));
+  for (const Rectangle& r : options.ignore)
+    if (r.x0 >= expected.width || r.y0 >= expected.height)
+      return cannot_compare(
+          fmt::format("the ignored rectangle {} lies outside the picture of {}x{}; correct it or leave it out",
+                      rectangle_text(r), expected.width, expected.height));
   CompareReport report;
   for (std::uint32_t y = 0; y < expected.height; ++y) {
     for (std::uint32_t x = 0; x < expected.width; ++x) {
@@ -98,6 +106,8 @@ CompareReport compare_images(const Image& expected, const Image& actual, const C
       if (difference > options.max_diff) note_difference(report, {x, y, e, a});
     }
   }
+  if (report.pixels_compared == 0)
+    return cannot_compare("no pixel is left outside the ignored rectangles; ignore less");
   if (report.pixels_differing > options.max_pixels) report.result = CompareResult::kDiffer;
   return report;
 }
@@ -112,9 +122,10 @@ CompareReport compare_png_files(const std::filesystem::path& expected_path, cons
   } catch (const Error& error) {
     return cannot_compare(error.what());
   }
-  const CompareReport report = compare_images(expected, actual, options);
-  if (difference_picture && report.result != CompareResult::kCannotCompare)
-    write_png(*difference_picture, difference_image(expected, actual, options));
+  CompareReport report = compare_images(expected, actual, options);
+  if (report.result == CompareResult::kCannotCompare)
+    report.reason = fmt::format("{} and {}: {}", expected_path.string(), actual_path.string(), report.reason);
+  else if (difference_picture) write_png(*difference_picture, difference_image(expected, actual, options));
   return report;
 }
 
@@ -148,8 +159,7 @@ std::string report_text(const CompareReport& report) {
   if (report.first)
     text += fmt::format("first at x={} y={}: expected {}, actual {}\n", report.first->x, report.first->y,
                         colour(report.first->expected), colour(report.first->actual));
-  if (report.bounds)
-    text += fmt::format("all within {}:{}-{}:{}\n", report.bounds->x0, report.bounds->y0, report.bounds->x1, report.bounds->y1);
+  if (report.bounds) text += fmt::format("all within {}\n", rectangle_text(*report.bounds));
   return text;
 }
 

@@ -26,7 +26,7 @@ std::optional<Rectangle> parse_rectangle(std::string_view text);
 struct CompareOptions {
   std::uint32_t max_diff = 0;      // a pixel is the same when no channel differs by more
   std::uint64_t max_pixels = 0;    // the pictures are the same when no more pixels differ
-  std::vector<Rectangle> ignore{}; // not looked at
+  std::vector<Rectangle> ignore{};  // not looked at; each begins inside the picture, parts beyond its edge do no harm
 };
 
 enum class CompareResult { kSame, kDiffer, kCannotCompare };
@@ -49,10 +49,12 @@ struct CompareReport {
 /// 0 same, 1 differ, 2 cannot compare.
 int exit_code(CompareResult result);
 
-/// Never throws for pictures' sake: different sizes are kCannotCompare.
+/// Never throws for pictures' sake: different sizes, an ignored rectangle outside the picture and no pixel left to look
+/// at are kCannotCompare.
 CompareReport compare_images(const Image& expected, const Image& actual, const CompareOptions& options = {});
 
-/// The same from PNG files; unreadable ones are kCannotCompare with the reader's sentence as the reason.
+/// The same from PNG files, which the reason names; unreadable ones are kCannotCompare with the reader's sentence as
+/// it.
 CompareReport compare_png_files(const std::filesystem::path& expected, const std::filesystem::path& actual,
                                 const CompareOptions& options = {},
                                 const std::optional<std::filesystem::path>& difference_picture = std::nullopt);

@@ -35,6 +35,15 @@ TEST_F(CompareCommand, TakesNoNumberThatWouldWrapAround) {
   expect_one_line_error(usuzumi("compare a.png b.png --max-diff 256"), 2, "0 to 255");
 }
 
+TEST_F(CompareCommand, EndsWithTwoWhereThereIsNothingToCompare) {
+  expect_one_line_error(usuzumi("compare a.png b.png --ignore 0:0-3:2"), 2, "a.png and b.png: no pixel");
+  expect_one_line_error(usuzumi("compare a.png a.png --ignore 4:0-9:2"), 2, "4:0-9:2");
+  const auto report = usuzumi("compare a.png b.png --ignore 0:0-3:2 --json");
+  EXPECT_EQ(report.exit_code, 2);
+  EXPECT_EQ(report.json()["result"], "cannot-compare");
+  EXPECT_TRUE(report.out.ends_with("}\n")) << "one line break, as every command's JSON";
+}
+
 TEST_F(CompareCommand, WritesOverNeitherPicture) {
   const std::string a = text("a.png"), b = text("b.png");
   expect_one_line_error(usuzumi("compare a.png b.png --diff a.png"), 2, "--diff a.png");

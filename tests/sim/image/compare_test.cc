@@ -76,7 +76,27 @@ TEST(Compare, IgnoredRectanglesIncludeBothCorners) {
   EXPECT_EQ(report.result, CompareResult::kSame);
   EXPECT_EQ(report.pixels_compared, 36u - 6 - 6);
   EXPECT_EQ(compare_images(expected, actual, {.ignore = {{1, 2, 3, 3}, {0, 4, 2, 4}}}).pixels_differing, 1u);
-  EXPECT_EQ(compare_images(expected, actual, {.ignore = {{0, 0, 100000, 100000}}}).pixels_compared, 0u);
+  EXPECT_EQ(compare_images(expected, actual, {.ignore = {{0, 1, 100000, 100000}}}).pixels_compared, 6u) << "clipped";
+}
+
+TEST(Compare, PicturesOfWhichNothingIsLookedAtCannotBeCompared) {
+  const Image picture(6, 4, 0);
+  EXPECT_EQ(compare_images(picture, picture, {.ignore = {{0, 0, 5, 2}}}).result, CompareResult::kSame);
+  for (const std::vector<Rectangle>& all : {std::vector<Rectangle>{{0, 0, 5, 3}}, {{0, 0, 2, 9}, {3, 0, 9, 3}}}) {
+    const CompareReport report = compare_images(picture, picture, {.ignore = all});
+    EXPECT_EQ(report.result, CompareResult::kCannotCompare);
+    EXPECT_THAT(report.reason, HasSubstr("no pixel"));
+  }
+}
+
+TEST(Compare, RectanglesOutsideThePictureAreMistakes) {
+  const Image picture(6, 4, 0);
+  EXPECT_EQ(compare_images(picture, picture, {.ignore = {{5, 3, 5, 3}}}).result, CompareResult::kSame);
+  for (const Rectangle outside : {Rectangle{6, 0, 9, 3}, Rectangle{0, 4, 5, 9}}) {
+    const CompareReport report = compare_images(picture, picture, {.ignore = {outside}});
+    EXPECT_EQ(report.result, CompareResult::kCannotCompare);
+    EXPECT_THAT(report.reason, HasSubstr("outside the picture of 6x4"));
+  }
 }
 
 TEST(Compare, UpperByteOfAPixelDoesNotCount) {
@@ -133,7 +153,7 @@ TEST(CompareReport, TextAndJsonSayWhereExpectedAndActual) {
 TEST(CompareReport, SameAndCannotCompareAreOneLine) {
   EXPECT_EQ(report_text(compare_images(Image(2, 2), Image(2, 2))), "same: every pixel is equal\n");
   EXPECT_EQ(report_text(compare_images(Image(2, 2), Image(2, 1))),
-            "cannot compare: sizes differ: expected 2x2, actual 2x1\n");
+            "cannot compare: sizes differ: expected 2x2, actual 2x1; draw both at one size\n");
   const auto json = nlohmann::json::parse(report_json(compare_images(Image(2, 2), Image(2, 2))));
   EXPECT_EQ(json["result"], "same");
   EXPECT_TRUE(json["first"].is_null());
@@ -150,6 +170,10 @@ TEST(CompareFiles, WritesTheDifferencePictureAndRefusesWhatItCannotRead) {
   const CompareReport missing = compare_png_files(folder / "a.png", folder / "missing.png");
   EXPECT_EQ(missing.result, CompareResult::kCannotCompare);
   EXPECT_THAT(missing.reason, HasSubstr("missing.png"));
+  write_png(folder / "small.png", Image(3, 2, 0));
+  const CompareReport sizes = compare_png_files(folder / "a.png", folder / "small.png", {}, folder / "none.png");
+  EXPECT_THAT(sizes.reason, ::testing::AllOf(HasSubstr("a.png"), HasSubstr("small.png: sizes differ")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.png"));
   EXPECT_THROW(compare_png_files(folder / "a.png", folder / "b.png", {}, folder / "no" / "d.png"), Error);
   std::filesystem::remove_all(folder);
 }
