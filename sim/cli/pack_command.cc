@@ -23,6 +23,7 @@
 #include "sim/common/report_errors.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
+#include "sim/pack/names.h"
 #include "sim/pack/rom_writer.h"
 #include "sim/pack/tag_values.h"
 
@@ -133,7 +134,8 @@ int pack(const PackOptions& options) {
 }
 
 constexpr const char* kFooter =
-    R"(NAME is a mesh's or its node's name (usuzumi inspect lists them); * and ? stand for other characters.
+    R"(Here the name of the node that places the mesh is found as well; the ROM keeps the mesh's name alone.
+
 Levels: 0 unset, 1 keep, 2 delete, 3 collapse, 4 point, 5 line. Precedence: options, sidecar, the node's
 extras, the mesh's extras, --default-level; of several rules from one place that fit a mesh the last wins.
 
@@ -157,7 +159,7 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--sidecar", options->sidecars, "JSON file with thinning properties by mesh name")->type_name("FILE.json");
   repeated("--level", options->levels, "Thinning level of a mesh, 0 to 5")->type_name("NAME=LEVEL");
   repeated("--quota", options->quotas, "Faces to keep at level 3: a count or a share")->type_name("NAME=N|P%");
-  repeated("--area", options->areas, "Area on screen up to which level 2 or 3 acts, in pixels")->type_name("NAME=PX");
+  repeated("--area", options->areas, "Area on screen up to which levels 2 to 5 act, in pixels")->type_name("NAME=PX");
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
   command->add_option("--default-level", options->default_level, "Level of the meshes that have none")
       ->transform(whole_number(0, firmware::kLevelCount - 1));
@@ -165,7 +167,7 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   command->add_option("--time-limit", options->time_limit_s, "Seconds after which reading a file is given up")
       ->transform(whole_number(1, 86400))
       ->capture_default_str();
-  command->footer(kFooter);
+  command->footer(fmt::format("{}\n{}", kNamesHelp, kFooter));
   command->callback([options, &exit_code] { report_errors(exit_code, [&] { return pack(*options); }); });
 }
 

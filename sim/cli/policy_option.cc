@@ -43,10 +43,12 @@ std::vector<std::uint32_t> matching(const std::string& word, const std::string& 
                                     std::span<const NamedMesh> meshes) {
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t n = 0; n < meshes.size(); ++n)
-    if (matches_pattern(pattern, meshes[n].name)) numbers.push_back(n);
+    if (matches_name(pattern, meshes[n].name)) numbers.push_back(n);
   if (numbers.empty()) {
     std::vector<std::string> names;
-    for (const NamedMesh& mesh : meshes) names.push_back(mesh.name);
+    for (const NamedMesh& mesh : meshes)
+      if (!mesh.name.empty()) names.push_back(mesh.name);
+    if (names.empty()) refuse(word, "bare drawing data have no names; pack the model without --bare");
     refuse(word, fmt::format("no mesh is called {}; {}", pattern, suggest(pattern, names)));
   }
   return numbers;

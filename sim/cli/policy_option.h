@@ -22,7 +22,7 @@ class PolicyOptions {
  public:
   /// Each of `words` is [2=|3=]POLICY, without a level for both:
   ///   always | below-area:PIXELS | chosen:NAME[,NAME...] | random:SHARE%[:SEED]
-  /// Names may have the wildcards * and ?. Throws Error kUsage, also where a level would get two policies.
+  /// Names as matches_name() takes them. Throws Error kUsage, also where a level would get two policies.
   PolicyOptions(std::span<const std::string> words, const firmware::DrawingData& data);
 
   void apply(firmware::ThinningSettings& settings) const;

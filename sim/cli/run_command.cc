@@ -24,6 +24,7 @@
 #include "sim/desk/desk.h"
 #include "sim/desk/run_report.h"
 #include "sim/image/png.h"
+#include "sim/pack/names.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -236,7 +237,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
   command->add_option("--out", options->out, "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it");
   command->add_option("--stats", options->stats, "JSON file: CRC-32, faces, cycles and times of each frame");
-  command->footer("Example: usuzumi run car.rom --size 800x480 --frames 60 --orbit --out pictures --stats stats.json");
+  command->footer(fmt::format(
+      "{}\n\nExample: usuzumi run car.rom --size 800x480 --frames 60 --orbit --out pictures --stats stats.json",
+      kNamesHelp));
   command->callback([options, &exit_code] { report_errors(exit_code, [&] { return run(*options); }); });
 }
 

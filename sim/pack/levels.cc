@@ -49,11 +49,12 @@ void note_unused_properties(Model& model) {
   for (const Mesh& mesh : model.meshes) {
     const std::uint32_t level = mesh.tags.level.value_or(0);
     auto note = [&](std::string_view key, std::string_view used_by) {
-      model.notes.push_back(fmt::format("mesh '{}': {} is kept in ROM, but level {} does not use it ({} does)",
-                                        mesh.name, key, level, used_by));
+      model.notes.push_back(
+          fmt::format("mesh '{}': {} is kept in ROM, but level {} does not use it; it is for level {}", mesh.name, key,
+                      level, used_by));
     };
-    if (mesh.tags.quota && level != kLevelCollapse) note(kQuotaKey, "3, collapse,");
-    if (mesh.tags.area_threshold_px && level < kLevelDelete) note(kAreaKey, "2, delete, or 3, collapse,");
+    if (mesh.tags.quota && level != kLevelCollapse) note(kQuotaKey, "3");
+    if (mesh.tags.area_threshold_px && level < kLevelDelete) note(kAreaKey, "2 to 5");
   }
 }
 

@@ -15,6 +15,17 @@ namespace {
 
 constexpr std::size_t kMostSuggestions = 3;
 
+/// "Wheel" of "Wheel#2".
+std::string_view without_number(std::string_view name) {
+  const std::size_t hash = name.find_last_not_of("0123456789");
+  const bool numbered = hash != std::string_view::npos && name[hash] == '#' && hash + 1 < name.size();
+  return numbered ? name.substr(0, hash) : name;
+}
+
+bool is_or_matches(std::string_view pattern, std::string_view text) {
+  return pattern == text || matches_pattern(pattern, text);
+}
+
 }  // namespace
 
 bool matches_pattern(std::string_view pattern, std::string_view text) {
@@ -37,11 +48,16 @@ bool matches_pattern(std::string_view pattern, std::string_view text) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+bool matches_name(std::string_view pattern, std::string_view name) {
+  constexpr std::string_view kFirst = "#1";
+  const std::string_view base = without_number(name);
+  if (is_or_matches(pattern, name) || is_or_matches(pattern, base)) return true;
+  return pattern.ends_with(kFirst) && base == name &&
+         is_or_matches(pattern.substr(0, pattern.size() - kFirst.size()), name);
+}
+
 bool matches_mesh(std::string_view pattern, const Mesh& mesh) {
-  // A name that has * or ? in it is still that name.
-  if (pattern == mesh.name || pattern == mesh.mesh_name || pattern == mesh.node_name) return true;
-  return matches_pattern(pattern, mesh.name) || matches_pattern(pattern, mesh.mesh_name) ||
-         (!mesh.node_name.empty() && matches_pattern(pattern, mesh.node_name));
+  return matches_name(pattern, mesh.name) || (!mesh.node_name.empty() && is_or_matches(pattern, mesh.node_name));
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -212,6 +212,23 @@ TEST_F(RunCommand, SaysWhichOptionsHaveNoEffect) {
   EXPECT_EQ(notes("hills.rom --camera path.json --frames 2"), "");
 }
 
+TEST_F(RunCommand, ChoosesByNameAsPackDoes) {
+  write("front.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no Wheel\nf 1 2 3\no Body\nf 1 3 2\n");
+  write("rear.obj", "v 1 0 0\nv 2 0 0\nv 1 1 0\no Wheel\nf 1 2 3\n");
+  ASSERT_EQ(usuzumi("pack front.obj rear.obj -o wheels.rom --default-level 2").exit_code, 0);
+  const auto left = [&](const std::string& pattern) {
+    const Ran ran = usuzumi("run wheels.rom --size 160x96 --stats stats.json --policy chosen:" + pattern);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return json_file("stats.json")["frames"][0]["meshes_out"].get<int>();
+  };
+  EXPECT_EQ(left("Wheel"), 1);
+  EXPECT_EQ(left("Wheel#1"), 2);
+  EXPECT_EQ(left("Wheel#2"), 2);
+  EXPECT_EQ(left("Wheel#1,Body"), 1);
+  ASSERT_EQ(usuzumi("pack front.obj -o bare.rom --bare --default-level 2").exit_code, 0);
+  expect_one_line_error(usuzumi("run bare.rom --policy chosen:Wheel"), 2, "bare drawing data have no names");
+}
+
 TEST_F(RunCommand, TakesNoEmptyValueForAnOptionLeftOut) {
   for (const char* option : {"--size", "--out", "--stats", "--camera", "--quota", "--policy", "--background"})
     expect_one_line_error(usuzumi(std::string("run hills.rom ") + option + " ''"), 2, option);

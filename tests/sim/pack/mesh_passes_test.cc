@@ -171,6 +171,26 @@ TEST(Names, PatternsMatchLikeShellsDo) {
   EXPECT_FALSE(sim::matches_pattern("*a*a*a*a*a*a*a*a*a*a*a*a*b", std::string(5000, 'a')));
 }
 
+TEST(Names, APlainNameMeansAllOfThatNameAndANumberedOneASingleMesh) {
+  const std::vector<std::string> names{"Wheel", "Wheel#2", "Wheel#10", "Wheels", "Wheel#", "A*b"};
+  const auto found = [&](const char* pattern) {
+    std::string all;
+    for (const std::string& name : names)
+      if (sim::matches_name(pattern, name)) all += name + " ";
+    return all;
+  };
+  EXPECT_EQ(found("Wheel"), "Wheel Wheel#2 Wheel#10 ");
+  EXPECT_EQ(found("Wheel#1"), "Wheel ");
+  EXPECT_EQ(found("Wheel#2"), "Wheel#2 ");
+  EXPECT_EQ(found("Wheel#10"), "Wheel#10 ");
+  EXPECT_EQ(found("Wheel#3"), "");
+  EXPECT_EQ(found("Wheel?"), "Wheels Wheel# ");
+  EXPECT_EQ(found("Wh*#1"), "Wheel Wheels Wheel# ") << "the first of each";
+  EXPECT_EQ(found("W*#2"), "Wheel#2 ");
+  EXPECT_EQ(found("A*b"), "A*b ");
+  EXPECT_EQ(found("A*b#1"), "A*b ");
+}
+
 TEST(Names, UniqueNamesNeverMeetNamesThatAreThereAlready) {
   sim::Model model;
   for (const char* name : {"a", "a#2", "a", "a", "b"}) model.meshes.emplace_back().mesh_name = name;

@@ -101,6 +101,7 @@ TEST(PackCommand, PatternsMeanMeshNamesUniqueNamesAndNodeNames) {
   const std::string model = car(folder);
   EXPECT_THAT(levels(packed(folder, {model, "--level", "wheel=3"})), ElementsAre(1, 3, 3, 2));
   EXPECT_THAT(levels(packed(folder, {model, "--level", "wheel#?=3"})), ElementsAre(1, 0, 3, 2));
+  EXPECT_THAT(levels(packed(folder, {model, "--level", "wheel#1=3"})), ElementsAre(1, 3, 0, 2));
   EXPECT_THAT(levels(packed(folder, {model, "--level", "Front left=3"})), ElementsAre(1, 3, 0, 2));
 }
 
