@@ -48,9 +48,11 @@ std::string obj_text(const MeshToWrite& mesh) {
 
 }  // namespace
 
-bool is_mesh_file_name(const std::filesystem::path& path) { return keeps_colours(path) || path.extension() == ".obj"; }
+bool is_mesh_file_name(const std::filesystem::path& path) {
+  return keeps_colours(path) || lower_extension(path) == ".obj";
+}
 
-bool keeps_colours(const std::filesystem::path& path) { return path.extension() == ".ply"; }
+bool keeps_colours(const std::filesystem::path& path) { return lower_extension(path) == ".ply"; }
 
 void write_mesh(const std::filesystem::path& path, const MeshToWrite& mesh) {
   if (!is_mesh_file_name(path))

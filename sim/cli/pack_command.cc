@@ -150,7 +150,7 @@ where levels.json is
 void add_pack_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<PackOptions>();
   CLI::App* command = app.add_subcommand("pack", "Turn 3D models into a ROM image of drawing data");
-  command->add_option("INPUT", options->inputs, "Model files: .glb .gltf .obj .ply .stl .off .dae .ac")->required();
+  command->add_option("INPUT", options->inputs, fmt::format("Model files: {}", kModelExtensions))->required();
   command->add_option("-o,--output", options->output, "ROM image to write")->required();
   // Each takes one argument, so that an INPUT may follow; each may be repeated.
   auto repeated = [&](const char* name, std::vector<std::string>& values, const char* help) {

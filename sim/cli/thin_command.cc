@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -112,9 +113,23 @@ JoinedMesh join_model(const Model& model, bool with_colours) {
   return joined;
 }
 
+/// A container says so itself, whatever it is called; bare drawing data can only be told by the name.
+bool is_rom(const fs::path& path) {
+  std::uint32_t magic = 0;
+  std::error_code none;
+  if (fs::is_regular_file(path, none))
+    std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(&magic), sizeof magic);
+  const std::string extension = lower_extension(path);
+  return magic == firmware::format::kMagic || extension == ".rom" || extension == ".bin";
+}
+
 JoinedMesh load_joined(const fs::path& path, bool with_colours) {
-  const std::string extension = path.extension().string();
-  if (extension == ".rom" || extension == ".bin") return join_rom(read_file(path), path, with_colours);
+  if (is_rom(path)) return join_rom(read_file(path), path, with_colours);
+  if (!is_model_file_name(path))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{}: neither a ROM image nor a model; the models read here are {}, bare "
+                            "drawing data are called .rom or .bin",
+                            path.string(), kModelExtensions));
   return join_model(load_model(path), with_colours);
 }
 
@@ -201,7 +216,10 @@ int thin(const ThinOptions& options) {
 void add_thin_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ThinOptions>();
   CLI::App* command = app.add_subcommand("thin", "Thin one model by the firmware's own level-3 method and write it as a mesh");
-  command->add_option("MODEL", options->input, "A model (.glb .gltf .obj .ply .stl .off .dae .ac) or drawing data (.rom .bin)")->required();
+  command
+      ->add_option("MODEL", options->input,
+                   fmt::format("A model ({}), a ROM image, or bare drawing data (.rom .bin)", kModelExtensions))
+      ->required();
   command->add_option("-o,--output", options->output, "Mesh to write: .ply or .obj")->required();
   command->add_option("--faces", options->faces, "Faces to keep over the whole model: a count, or a share like 25%")->required();
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")

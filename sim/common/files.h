@@ -5,10 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace usuzumi::sim {
+
+/// ".obj" of "Fish.OBJ".
+std::string lower_extension(const std::filesystem::path& path);
 
 /// All bytes of a regular file (or of a pipe). Throws Error kBadInput: missing, a folder, unreadable, above
 /// `max_bytes`.

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "sim/common/error.h"
+#include "sim/common/files.h"
 #include "sim/common/progress.h"
 #include "sim/pack/gltf_file.h"
 #include "sim/pack/importers.h"
@@ -27,13 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 6> kAssimpExtensions{".obj", ".ply", ".stl", ".off", ".dae", ".ac"};
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// assimp names glTF 1.0 meshes by identifier, with "-0", "-1" … for the primitives of one; people know them by name.
 void label_gltf1(const GltfFile& file, Model& model) {
@@ -132,17 +125,17 @@ void finish(const std::string& file, Model& model) {
 
 }  // namespace
 
+bool is_model_file_name(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".gltf" || extension == ".glb" ||
+         std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
+}
+
 Model load_model(const fs::path& path, const LoadOptions& options) {
   const std::string file = path.string();
-  const std::string extension = lower_extension(path);
-  const bool known =
-      extension == ".gltf" || extension == ".glb" ||
-      std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
-  if (!known)
-    throw Error(
-        ExitCode::kBadInput,
-        fmt::format("{}: not a model file that is read here; convert it to .glb .gltf .obj .ply .stl .off .dae or .ac",
-                    file));
+  if (!is_model_file_name(path))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("{}: not a model file that is read here; convert it to one of {}", file, kModelExtensions));
   std::error_code none;
   if (!fs::exists(path, none)) throw Error(ExitCode::kBadInput, fmt::format("{}: no such file; check the name", file));
   if (fs::is_directory(path, none))

@@ -77,6 +77,22 @@ TEST_F(ThinCommand, RefusesColoursWhereTheFileHasNoPlaceForThem) {
   EXPECT_EQ(usuzumi("thin hills.obj -o out.ply --faces 5 --colours").exit_code, 0);
 }
 
+TEST_F(ThinCommand, KnowsARomByWhatIsInItAndABareOneByItsName) {
+  write_hills("hills.OBJ", 4);
+  ASSERT_EQ(usuzumi("pack hills.OBJ -o picture.data").exit_code, 0);
+  ASSERT_EQ(usuzumi("pack hills.OBJ -o misleading.obj").exit_code, 0);
+  ASSERT_EQ(usuzumi("pack hills.OBJ -o BARE.ROM --bare").exit_code, 0);
+  for (const char* rom : {"picture.data", "misleading.obj", "BARE.ROM", "hills.OBJ"}) {
+    const Ran ran = usuzumi(std::string("thin ") + rom + " -o out.PLY --faces 5 --json");
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["faces_in"], 32) << rom;
+  }
+  EXPECT_TRUE(text("out.PLY").starts_with("ply\n"));
+  write("notes.txt", "nothing to draw");
+  expect_one_line_error(usuzumi("thin notes.txt -o out.ply --faces 5"), 3, ".rom");
+  expect_one_line_error(usuzumi("thin . -o out.ply --faces 5"), 3, "neither a ROM image nor a model");
+}
+
 TEST_F(ThinCommand, WritesNotOverItsInput) {
   write_hills("hills.obj", 4);
   const std::string before = text("hills.obj");
