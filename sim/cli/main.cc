@@ -38,8 +38,9 @@ int main(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_compare_command(app, exit_code);
   refuse_empty_values(app);
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](CLI::App* command) { return command->check_name(argv[1]); }).empty()) {
-    fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", argv[1]);
+  const std::string command = argc > 1 && argv[1][0] != '-' ? argv[1] : "";
+  if (!command.empty() && app.get_subcommands([&](CLI::App* known) { return known->check_name(command); }).empty()) {
+    fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", command);
     return exit_status(ExitCode::kUsage);
   }
   try {
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "usuzumi: {}; see usuzumi --help\n", e.what());
+    fmt::print(stderr, "usuzumi: {}; see usuzumi {}--help\n", e.what(), command.empty() ? "" : command + " ");
     return exit_status(ExitCode::kUsage);
   }
   return exit_code;

@@ -9,6 +9,7 @@
 #include "sim/common/error.h"
 #include "sim/pack/names.h"
 #include "sim/pack/rom_report.h"
+#include "sim/pack/tag_values.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -56,10 +57,11 @@ std::vector<std::uint32_t> matching(const std::string& word, const std::string& 
 
 void set_random(const std::string& word, std::string_view argument, Policy& policy) {
   const auto parts = split(argument, ':');
-  if (parts.size() > 2 || parts[0].empty() || parts[0].back() != '%') refuse(word, "must be random:SHARE% or random:SHARE%:SEED, e.g. random:50%:7");
-  const FaceQuota share = quota_option("--policy", parts[0]);
+  const auto share = parse_share(parts[0]);
+  if (!share || parts.size() > 2)
+    refuse(word, "the share must be above 0 and up to 100 %, as in random:50% or, with a seed, random:50%:7");
   policy.kind = PolicyKind::kRandom;
-  policy.random_millionths = share.value;
+  policy.random_millionths = *share;
   if (parts.size() == 1) return;
   const auto seed = parse_whole_number(parts[1], kMostSeed);
   if (!seed) refuse(word, fmt::format("SEED must be a whole number up to {}", kMostSeed));

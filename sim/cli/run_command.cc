@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -138,6 +139,22 @@ fs::path picture_path(const RunOptions& options, std::uint32_t frame) {
   return fs::path(options.out) / fmt::format("frame-{:04}.png", frame);
 }
 
+/// Nothing is deleted that this run did not make, but a film made of the folder would be of two runs.
+void note_older_pictures(const RunOptions& options) {
+  constexpr std::string_view kStart = "frame-", kEnd = ".png";
+  std::size_t older = 0;
+  for (const auto& entry : fs::directory_iterator(options.out)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kStart) || !name.ends_with(kEnd)) continue;
+    const std::string_view number =
+        std::string_view(name).substr(kStart.size(), name.size() - kStart.size() - kEnd.size());
+    if (parse_whole_number(number, kMostFrames).value_or(0) >= options.frames) ++older;
+  }
+  if (older > 0)
+    print_note(fmt::format("{}: {} picture(s) of an earlier run remain, from {} on; remove what is not wanted",
+                           options.out, older, picture_path(options, options.frames).filename().string()));
+}
+
 void prepare_outputs(const RunOptions& options) {
   const std::array<fs::path, 2> inputs{options.rom, options.camera};
   if (!options.out.empty()) {
@@ -185,6 +202,7 @@ int run(const RunOptions& options) {
   const CameraPath path(options, desk);
   prepare_outputs(options);
   note_what_has_no_effect(options, desk, policies, path);
+  if (!options.out.empty()) note_older_pictures(options);
 
   std::vector<FrameRecord> records;
   {
@@ -235,7 +253,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->transform(whole_number(1, kMostThreads))
       ->capture_default_str();
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
-  command->add_option("--out", options->out, "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it");
+  command->add_option("--out", options->out,
+                      "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it; "
+                      "pictures of an earlier, longer run stay and are told of");
   command->add_option("--stats", options->stats, "JSON file: CRC-32, faces, cycles and times of each frame");
   command->footer(fmt::format(
       "{}\n\nExample: usuzumi run car.rom --size 800x480 --frames 60 --orbit --out pictures --stats stats.json",

@@ -23,6 +23,7 @@
 #include "sim/common/report_errors.h"
 #include "sim/machine/host_stopwatch.h"
 #include "sim/pack/load_model.h"
+#include "sim/pack/rom_report.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -85,7 +86,7 @@ class JoinedMesh {
 JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, bool with_colours) {
   const Progress progress("reading " + path.string());
   const auto data = firmware::DrawingData::open(rom);
-  if (!data.ok()) throw Error(ExitCode::kBadInput, fmt::format("{}: {} {}", path.string(), data.status().message, data.status().where));
+  if (!data.ok()) throw Error(ExitCode::kBadInput, unsound_line(rom, path.string(), data.status()));
   JoinedMesh joined(with_colours);
   data->for_each_mesh([&](const firmware::MeshView& mesh) {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {

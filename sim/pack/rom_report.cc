@@ -148,12 +148,22 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
 
 const char* level_label(unsigned level) { return level < kLevelLabels.size() ? kLevelLabels[level] : "?"; }
 
+std::string unsound_line(std::span<const std::byte> rom, const std::string& file, const Status& status) {
+  std::uint32_t magic = 0;
+  if (rom.size() >= sizeof magic) std::memcpy(&magic, rom.data(), sizeof magic);
+  if (magic == format::kMagic)
+    return fmt::format("{}: unsound: {} {}; pack it again", file, status.message, status.where);
+  return fmt::format(
+      "{}: neither a container nor sound bare drawing data: {} {}; name a ROM image, as usuzumi pack writes", file,
+      status.message, status.where);
+}
+
 RomReport describe_rom(std::span<const std::byte> rom, const std::string& file) {
   RomReport report;
   const Result<DrawingData> opened = DrawingData::open(rom);
   if (!opened.ok()) {
     const Status& status = opened.status();
-    report.error = fmt::format("{}: unsound: {} {}; pack it again", file, status.message, status.where);
+    report.error = unsound_line(rom, file, status);
     json j;
     j["file"] = file;
     j["sound"] = false;

@@ -38,18 +38,9 @@ std::optional<double> number_of(const TagValue& v) {
 
 bool is_count(double d) { return d >= 0 && d <= std::numeric_limits<std::uint32_t>::max() && d == std::floor(d); }
 
-std::optional<FaceQuota> percent_quota(std::string_view text) {
-  if (text.empty() || text.back() != '%') return std::nullopt;
-  const std::optional<double> percent = parse_number(text.substr(0, text.size() - 1));
-  if (!percent || !(*percent > 0) || *percent > 100) return std::nullopt;
-  const auto millionths = static_cast<std::uint32_t>(*percent * 10'000 + 0.5);
-  if (millionths == 0) return std::nullopt;
-  return FaceQuota{firmware::format::QuotaKind::kMillionths, millionths};
-}
-
 std::optional<FaceQuota> parse_quota(const TagValue& v) {
   if (v.text)
-    if (auto percent = percent_quota(*v.text)) return percent;
+    if (const auto share = parse_share(*v.text)) return FaceQuota{firmware::format::QuotaKind::kMillionths, *share};
   const auto count = number_of(v);
   if (!count || !is_count(*count) || *count < 1) return std::nullopt;
   return FaceQuota{firmware::format::QuotaKind::kFaces, static_cast<std::uint32_t>(*count)};
@@ -65,6 +56,15 @@ std::optional<bool> parse_truth(const TagValue& v) {
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> parse_share(std::string_view text) {
+  if (text.empty() || text.back() != '%') return std::nullopt;
+  const std::optional<double> percent = parse_number(text.substr(0, text.size() - 1));
+  if (!percent || !(*percent > 0) || *percent > 100) return std::nullopt;
+  const auto millionths = static_cast<std::uint32_t>(*percent * 10'000 + 0.5);
+  if (millionths == 0) return std::nullopt;
+  return millionths;
+}
 
 std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
   if (key == kLevelKey) {

@@ -33,6 +33,9 @@ TagValue tag_value_of(const Json& json) {
   return value;
 }
 
+/// "25%" in millionths; nullopt for what is not above 0 and up to 100 %.
+std::optional<std::uint32_t> parse_share(std::string_view text);
+
 /// Reads `value` for `key` (one of kTagKeys) into `tags`. Returns "" or what is wrong with it: "must be 0 to 5, not 9".
 std::string set_tag(Tags& tags, std::string_view key, const TagValue& value);
 

@@ -151,6 +151,7 @@ TEST_F(RunCommand, AnswersBadInputWithOneLine) {
   expect_one_line_error(usuzumi("run hills.rom --policy never"), 2, "--policy never");
   expect_one_line_error(usuzumi("run hills.rom --policy chosen:valleys"), 2, "hills");
   expect_one_line_error(usuzumi("run hills.rom --policy random:half"), 2, "random");
+  expect_one_line_error(usuzumi("run hills.rom --policy random:101%"), 2, "--policy random:101%: the share must be");
   expect_one_line_error(usuzumi("run hills.rom --policy random:50%:-1"), 2, "--policy random:50%:-1: SEED");
   expect_one_line_error(usuzumi("run hills.rom --policy below-area:-1"), 2, "--policy below-area:-1: PIXELS");
   expect_one_line_error(usuzumi("run hills.rom --thin off --quota 50%"), 2, "--thin off");
@@ -210,6 +211,18 @@ TEST_F(RunCommand, SaysWhichOptionsHaveNoEffect) {
   EXPECT_EQ(notes("hills.rom --camera path.json"),
             "note: path.json: 2 cameras for 1 frame(s); give --frames 2 to use them all\n");
   EXPECT_EQ(notes("hills.rom --camera path.json --frames 2"), "");
+}
+
+TEST_F(RunCommand, TellsOfPicturesOfALongerRunAndLeavesThem) {
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --orbit --frames 4 --out pictures").err, "");
+  write("pictures/frame-first.png", "another's");
+  const Ran ran = usuzumi("run hills.rom --size 160x96 --orbit --frames 2 --out pictures");
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_EQ(
+      ran.err,
+      "note: pictures: 2 picture(s) of an earlier run remain, from frame-0002.png on; remove what is not wanted\n");
+  EXPECT_TRUE(exists("pictures/frame-0003.png"));
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --orbit --frames 4 --out pictures").err, "");
 }
 
 TEST_F(RunCommand, ChoosesByNameAsPackDoes) {
@@ -286,6 +299,9 @@ TEST_F(RunCommand, HelpShowsAnExampleEverywhere) {
   }
   EXPECT_NE(usuzumi("--help").out.find("Exit codes"), std::string::npos);
   expect_one_line_error(usuzumi("paint"), 2, "paint");
+  expect_one_line_error(usuzumi("run --frames 3"), 2, "see usuzumi run --help");
+  expect_one_line_error(usuzumi("--frames 3"), 2, "see usuzumi --help");
+  expect_one_line_error(usuzumi("inspect hills.obj"), 3, "hills.obj: neither a container nor sound bare drawing data");
   expect_one_line_error(usuzumi(""), 2, "A subcommand is required");
 }
 
