@@ -245,7 +245,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->add_option("--policy", options->policies,
                    "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], "
                    "random:SHARE%[:SEED]; "
-                   "with 2= or 3= before it for one level. May be given several times")
+                   "with 2= or 3= before it for one level, so that each may have its own")
       ->allow_extra_args(false);  // so that a ROM may follow
   command->add_option("--engine", options->engine, "3D engine")->check(CLI::IsMember({"soft", "osmesa"}))->capture_default_str();
   command

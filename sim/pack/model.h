@@ -49,8 +49,8 @@ struct Mesh {
 
 struct Model {
   std::vector<Mesh> meshes;
-  std::vector<std::string> buffer_files;  // beside the model file, read as parts of it
   std::vector<std::string> notes;  // what the user should know, a line each: what was left out, what was made up
+  std::vector<std::string> buffer_files{};  // beside the model file, read as parts of it
 };
 
 }  // namespace usuzumi::sim
