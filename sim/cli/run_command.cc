@@ -143,7 +143,8 @@ fs::path picture_path(const RunOptions& options, std::uint32_t frame) {
 void note_older_pictures(const RunOptions& options) {
   constexpr std::string_view kStart = "frame-", kEnd = ".png";
   std::size_t older = 0;
-  for (const auto& entry : fs::directory_iterator(options.out)) {
+  std::error_code none;  // a folder that may be written but not listed has nothing to tell
+  for (const auto& entry : fs::directory_iterator(options.out, none)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kStart) || !name.ends_with(kEnd)) continue;
     const std::string_view number =
