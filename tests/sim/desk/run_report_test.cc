@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 TEST(RunReport, TellsTheTimeOfThinningOverAllFramesAndTheLongest) {
   std::array<FrameRecord, 4> frames;
   frames[0].thin_ms = 2;
-  frames[2].thin_ms = 6;  // the decisions changed
-  EXPECT_THAT(run_report_text({}, frames), HasSubstr("thinning 2.00 ms a frame (6.00 ms the longest)"));
+  frames[2].thin_ms = 10;  // the decisions changed
+  EXPECT_THAT(run_report_text({}, frames), HasSubstr("thinning 3.00 ms a frame (10.00 ms the longest)"));
 }
 
 }  // namespace
