@@ -70,16 +70,20 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
   }
   minimise(e, m);
   if (believable(m.system.d0, m.system.d1, m.system.d2, m.far_squared, m.edge_squared)) {
-    // Solving once more, with the pull towards the first solution, takes the pull out again where the quadric does have a
-    // minimum (iterated Tikhonov regularisation): a cube's corners stay. The cost is that of the first solution, which is
-    // a little higher.
-    const Vec3Of<float> refined = solve(m.sum, m.system, m.offset);
-    result.offset = {refined.x, refined.y, refined.z};
+    result.offset = {m.offset.x, m.offset.y, m.offset.z};
     result.cost = at_least_zero(m.cost);
+    result.system = m.system;
+    result.has_minimum = true;
   } else {
     use_best_of_ends_and_middle(result, edge);
   }
   return result;
+}
+
+Vec3 refined_offset(const EdgeCost& cost) {
+  if (!cost.has_minimum) return cost.offset;
+  const Vec3Of<float> refined = solve(lanes_of(cost.quadric), cost.system, {cost.offset.x, cost.offset.y, cost.offset.z});
+  return {refined.x, refined.y, refined.z};
 }
 
 void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement placement, float* costs) {

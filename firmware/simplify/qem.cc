@@ -31,7 +31,7 @@ constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 
 // Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges that
 // grow dearer leave the table at once and are found again, four at a time, by a later fill; more were measured to be
 // slower. Small meshes keep half of their edges: there a fill is what costs. Both numbers by measuring.
-constexpr std::size_t kCandidatesOfSmallMeshes = 4096;
+constexpr std::size_t kCandidatesOfSmallMeshes = 2048;
 constexpr std::size_t candidate_slots(std::uint32_t face_count) {
   const std::size_t some = std::size_t{face_count} / 4;
   const std::size_t half = std::size_t{face_count} * 3 / 4 + 16;
@@ -248,12 +248,13 @@ void QemSimplifier::collapse_next() {
   const Corner edge = edge_of(key);
   // Its face may be gone, or another half-edge may stand for the edge now.
   if ((surface_.links[edge] & kRepresentative) == 0) return;
-  const EdgeCost cost = cost_of_edge(edge);
+  EdgeCost cost = cost_of_edge(edge);
   const EdgeKey now = edge_key(cost.cost, edge);
   if (now > key && (now > queue_.top() || now >= limit_)) {
     put_off(now);
     return;
   }
+  cost.offset = refined_offset(cost);
   if (!try_collapse(edge, cost)) refuse(edge);
 }
 
@@ -352,7 +353,8 @@ void QemSimplifier::refuse(Corner edge) {
   surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
 }
 
-// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
+// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices. The
+// edges are taken up at once: by the next fill dearer ones would have gone, a cube's corners before its flat sides.
 void QemSimplifier::allow_again_around(std::uint32_t v) {
   allow_again_at(v);
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
