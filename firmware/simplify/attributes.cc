@@ -10,17 +10,23 @@ std::uint32_t mix_channel(std::uint32_t a, std::uint32_t b, float t) {
 
 }  // namespace
 
-void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, float t) const {
+AttributeShares shares_at(float t, float area_of_first, float area_of_second) {
+  const float first = (1.0f - t) * area_of_first, second = t * area_of_second;
+  const float both = first + second;
+  return {t, both > 0 ? second / both : t};
+}
+
+void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, AttributeShares shares) const {
   if (normals != nullptr && normals[to] != normals[from]) {
     const Vec3 a = unpack(normals[to]), b = unpack(normals[from]);
-    const Vec3 mixed = a * (1.0f - t) + b * t;
+    const Vec3 mixed = a * (1.0f - shares.normal) + b * shares.normal;
     // Opposite normals have no mean; the nearer end's then stays.
-    normals[to] = pack_normal(normalized(mixed, t < 0.5f ? a : b));
+    normals[to] = pack_normal(normalized(mixed, shares.normal < 0.5f ? a : b));
   }
   if (colours != nullptr && colours[to] != colours[from]) {
     const Rgba8 a = colours[to], b = colours[from];
-    colours[to] = rgba8(mix_channel(a.r(), b.r(), t), mix_channel(a.g(), b.g(), t), mix_channel(a.b(), b.b(), t),
-                        mix_channel(a.a(), b.a(), t));
+    colours[to] = rgba8(mix_channel(a.r(), b.r(), shares.colour), mix_channel(a.g(), b.g(), shares.colour), mix_channel(a.b(), b.b(), shares.colour),
+                        mix_channel(a.a(), b.a(), shares.colour));
   }
 }
 

@@ -8,13 +8,25 @@
 
 namespace usuzumi::firmware {
 
+/// How much of the second end's attributes the new vertex gets, in [0, 1].
+struct AttributeShares {
+  float colour = 0.5f;  // by place: colours lie on the surface
+  float normal = 0.5f;  // by place and area: what looks evenly lit is mostly the largest faces around
+
+  AttributeShares reversed() const { return {1.0f - colour, 1.0f - normal}; }
+};
+
+/// Where the new vertex lies `t` of the way from one end to the other, and the ends have these areas around them. A bevel's
+/// normal would otherwise be drawn as a gradient over the wide flat face beside it.
+AttributeShares shares_at(float t, float area_of_first, float area_of_second);
+
 struct WedgeAttributes {
   PackedNormal* normals = nullptr;  // null where absent
   Rgba8* colours = nullptr;
 
   bool any() const { return normals != nullptr || colours != nullptr; }
-  /// Wedge `to` becomes the mixture (1 - t) to + t from, t in [0, 1].
-  void mix(std::uint32_t to, std::uint32_t from, float t) const;
+  /// Wedge `to` takes on `shares` of wedge `from`.
+  void mix(std::uint32_t to, std::uint32_t from, AttributeShares shares) const;
 };
 
 /// Where `offset` lies along `edge`, both from the edge's first end: 0 at that end, 1 at the other, clamped.

@@ -90,10 +90,10 @@ struct Merge {
 }  // namespace
 
 CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
-                            const Neighbourhood& n, float t) {
+                            const Neighbourhood& n, AttributeShares shares) {
   const bool a_stays = n.a < n.b;
   Merge merge{.surface = surface, .n = n, .keep = a_stays ? n.a : n.b, .remove = a_stays ? n.b : n.a};
-  const float keep_to_remove = a_stays ? t : 1.0f - t;
+  const AttributeShares of_removed = a_stays ? shares : shares.reversed();
   CollapsedEdge result;
   result.vertex = merge.keep;
 
@@ -111,7 +111,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
     if (attributes.any()) {
       const std::uint32_t kept = surface.indices[corner_index(c)];
       const std::uint32_t removed = surface.indices[corner_index(at_remove)];
-      if (pairs.add(kept, removed)) attributes.mix(kept, removed, keep_to_remove);
+      if (pairs.add(kept, removed)) attributes.mix(kept, removed, of_removed);
     }
     merge.remove_face(c, at_remove, out_removed ? in : out);
     ++result.faces_removed;

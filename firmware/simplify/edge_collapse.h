@@ -17,9 +17,9 @@ struct CollapsedEdge {
 };
 
 /// Merges the ends of `n`'s edge, removes its faces, and joins each pair of edges that falls together under one
-/// representative. Positions and quadrics are the caller's. `t` is the new vertex's place between a (0) and b (1), for
-/// the attributes. `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
+/// representative. Positions and quadrics are the caller's. `shares` says how much of b's attributes the new vertex gets.
+/// `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
 CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
-                            const Neighbourhood& n, float t);
+                            const Neighbourhood& n, AttributeShares shares);
 
 }  // namespace usuzumi::firmware

@@ -326,9 +326,13 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   if (!(volume_kept == position) && !rules_.turns_a_face(n, volume_kept)) position = volume_kept;
   else if (rules_.turns_a_face(n, position)) return false;
 
-  const float t = attributes_.any() ? position_along(surface_.position(n.b) - a, cost.offset) : 0.5f;
+  AttributeShares shares;
+  if (attributes_.any()) {
+    const float t = position_along(surface_.position(n.b) - a, cost.offset);
+    shares = shares_at(t, weight_of(surface_.vertices[n.a].quadric), weight_of(surface_.vertices[n.b].quadric));
+  }
   const std::uint32_t singular = (surface_.places[n.a].mark | surface_.places[n.b].mark) & kSingular;
-  const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, t);
+  const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, shares);
   const std::uint32_t v = collapsed.vertex;
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;

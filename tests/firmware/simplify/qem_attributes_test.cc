@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "firmware/simplify/attributes.h"
 #include "tests/firmware/simplify/simplify_fixture.h"
 
 namespace usuzumi::testing {
@@ -90,6 +91,52 @@ TEST(QemAttributes, SmoothNormalsOfASphereStillPointOutwards) {
   ASSERT_TRUE(thinned.status.ok());
   for (std::size_t v = 0; v < thinned.mesh.positions.size(); ++v)
     EXPECT_GT(dot(unpack(thinned.mesh.normals[v]), normalized(thinned.mesh.positions[v])), 0.98f) << v;
+}
+
+TEST(QemAttributes, NormalsAreSharedOutByPlaceAndArea) {
+  using firmware::shares_at;
+  EXPECT_FLOAT_EQ(shares_at(0.5f, 3, 1).colour, 0.5f);
+  EXPECT_FLOAT_EQ(shares_at(0.5f, 3, 1).normal, 0.25f);
+  EXPECT_FLOAT_EQ(shares_at(0.75f, 3, 1).normal, 0.5f);  // 0.75 * 1 against 0.25 * 3
+  EXPECT_FLOAT_EQ(shares_at(0, 3, 1).normal, 0);
+  EXPECT_FLOAT_EQ(shares_at(1, 3, 1).normal, 1);
+  EXPECT_FLOAT_EQ(shares_at(0.25f, 0, 0).normal, 0.25f) << "without areas by place alone";
+  EXPECT_FLOAT_EQ(shares_at(0.5f, 3, 1).reversed().normal, 0.75f);
+}
+
+// Two flat walls and a small fillet between, shaded smooth. Thinned to a few faces, the walls must still look flat: a wall is a
+// hundred times as wide as a step of the fillet, whose tilted normals would be drawn all over it.
+TEST(QemAttributes, FlatWallsBesideAThinnedFilletStayEvenlyLit) {
+  constexpr float kQuarter = 1.5707963f;
+  constexpr int kSteps = 8, kRows = 9;
+  Mesh mesh;
+  for (int row = 0; row < kRows; ++row) {
+    const auto add = [&](float x, float z, float angle) {
+      mesh.positions.push_back({x, 2.5f * static_cast<float>(row), z});
+      mesh.normals.push_back(pack_normal({std::cos(angle), 0, std::sin(angle)}));
+    };
+    add(-20, 1, kQuarter);
+    for (int i = 0; i <= kSteps; ++i) {
+      const float angle = kQuarter * (1 - static_cast<float>(i) / kSteps);
+      add(std::cos(angle), std::sin(angle), angle);
+    }
+    add(1, -20, 0);
+  }
+  constexpr std::uint32_t kColumns = kSteps + 3;
+  for (std::uint32_t row = 0; row + 1 < kRows; ++row)
+    for (std::uint32_t i = 0; i + 1 < kColumns; ++i) {
+      const std::uint32_t a = row * kColumns + i, b = a + 1, c = a + kColumns, d = c + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+    }
+  const Mesh thinned = thin(mesh, 16).mesh;
+  ASSERT_LE(thinned.face_count(), 16u);
+  for (std::size_t f = 0; f < thinned.indices.size(); f += 3) {
+    const Vec3 a = thinned.positions[thinned.indices[f]], b = thinned.positions[thinned.indices[f + 1]], c = thinned.positions[thinned.indices[f + 2]];
+    const Vec3 normal = cross(b - a, c - a);
+    if (length(normal) < 100) continue;  // no wall
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_GT(dot(unpack(thinned.normals[thinned.indices[f + k]]), normalized(normal)), 0.995f) << f / 3 << ' ' << k;
+  }
 }
 
 TEST(QemAttributes, SeamsChangeNothingAboutTheShapeOfTheResult) {
