@@ -34,7 +34,7 @@ struct SimplifyOptions {
 
 enum class StopReason : std::uint8_t {
   kQuotaReached,         // faces <= target
-  kNoCollapseAllowed,    // every edge left would flip a face or break the surface
+  kNoCollapseAllowed,    // every edge left would turn a face over, make a sliver or break the surface
 };
 
 struct SimplifyWork {  // for the machine's cost model

@@ -208,7 +208,7 @@ int thin(const ThinOptions& options) {
   fmt::print("{}: {} faces -> {} faces, {} -> {} vertices, {:.1f} ms, {:.1f} MB of RAM, largest error {:.3g}\n", options.output.string(),
              faces_in, mesh.face_count, vertices_in, mesh.vertex_count, thin_ms, static_cast<double>(host.arena.high_water()) / 1e6,
              outcome->max_error);
-  if (!reached) fmt::print("The quota was not reached: every collapse left would flip a face or break the surface.\n");
+  if (!reached) fmt::print("The quota was not reached: every collapse left would turn a face over, make a sliver or break the surface.\n");
   return exit_status(ExitCode::kOk);
 }
 

@@ -101,7 +101,7 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
   text += fmt::format("  memory  {:.1f} KB of RAM at most, {:.1f} KB of VRAM, {:.1f} KB of ROM\n", static_cast<double>(summary.memory.ram_peak_bytes) / 1e3,
                       static_cast<double>(summary.memory.vram_bytes) / 1e3, static_cast<double>(summary.memory.rom_bytes) / 1e3);
   text += fmt::format("  CRC-32  {:08x} (last frame)\n", last.crc32);
-  if (t.quotas_missed > 0) text += fmt::format("  {} mesh(es) kept more faces than their quota: every collapse left would flip a face or break the surface\n", t.quotas_missed);
+  if (t.quotas_missed > 0) text += fmt::format("  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or break the surface\n", t.quotas_missed);
   if (t.quota_halvings > 0) text += fmt::format("  RAM was short: level-3 quotas were halved {} time(s)\n", t.quota_halvings);
   if (t.meshes_unthinned > 0) text += fmt::format("  RAM was short: {} level-3 mesh(es) are drawn unthinned\n", t.meshes_unthinned);
   if (t.meshes_dropped > 0) text += fmt::format("  RAM was short: {} mesh(es) are not drawn, the first is number {}\n", t.meshes_dropped, t.first_dropped);

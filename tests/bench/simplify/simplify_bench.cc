@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
   const std::vector<usuzumi::bench::Model> models = usuzumi::bench::load_models();
   for (const auto& model : models)
     for (const double percent : usuzumi::bench::kPercents) usuzumi::bench::register_comparison(model, percent);
-  for (const int levels : {5, 6, 7, 8}) usuzumi::bench::register_scaling(levels);
+  for (const int levels : {4, 5, 6, 7, 8}) usuzumi::bench::register_scaling(levels);
   benchmark::RunSpecifiedBenchmarks();
   usuzumi::bench::print_report();
   return 0;
