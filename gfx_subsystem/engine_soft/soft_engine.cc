@@ -68,7 +68,10 @@ const Kernels* best_kernels() {
 }  // namespace
 
 SoftEngine::SoftEngine(const Config& config)
-    : kernels_(config.kernels != nullptr ? config.kernels : best_kernels()), work_memory_(config.work_memory), runner_(config.runner) {}
+    : kernels_(config.kernels != nullptr ? config.kernels : best_kernels()),
+      work_memory_(config.work_memory),
+      runner_(config.runner),
+      streaming_bytes_(config.streaming_bytes) {}
 
 std::size_t SoftEngine::minimum_work_bytes(std::uint32_t width, std::uint32_t height) {
   const std::uint32_t tiles = grid_of(width, height).count();
@@ -106,7 +109,7 @@ Status SoftEngine::bind_target(const EngineState& s) {
   t.depth_stride = s.depth_target.stride_bytes;
   t.depth16 = s.depth_target.format == command::DepthFormat::kUnorm16;
   const auto lines = [](const std::byte* plane, std::uint32_t stride) { return (reinterpret_cast<std::uintptr_t>(plane) | stride) % kCacheLine == 0; };
-  t.streaming = s.colour_memory.size() + s.depth_memory.size() >= kStreamingBytes && !t.rgb565 && t.width % 16 == 0 && lines(t.colour, t.colour_stride) &&
+  t.streaming = s.colour_memory.size() + s.depth_memory.size() >= streaming_bytes_ && !t.rgb565 && t.width % 16 == 0 && lines(t.colour, t.colour_stride) &&
                 lines(t.depth, t.depth_stride);
   if (t == round_.target) return ok_status();
   finish_round();

@@ -24,6 +24,8 @@ class SoftEngine final : public Engine, private CommandSink {
     ParallelRunner* runner = nullptr;
     /// nullptr: the best variant that the processor supports. For tests: one of soft::all_kernels().
     const soft::Kernels* kernels = nullptr;
+    /// Targets of so many bytes and more are stored past the caches. No byte depends on it.
+    std::size_t streaming_bytes = soft::kStreamingBytes;
   };
 
   explicit SoftEngine(const Config& config);
@@ -60,6 +62,7 @@ class SoftEngine final : public Engine, private CommandSink {
   const soft::Kernels* kernels_;
   std::span<std::byte> work_memory_;
   ParallelRunner* runner_;
+  std::size_t streaming_bytes_;
 
   // Tables in the working memory, and how much of them the current round uses.
   std::span<soft::DrawSetup> draws_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,22 @@ using namespace command;
 
 inline constexpr BusAddress kRam = 0x10000, kVram = 0x40000000;
 
+/// VRAM begins at a cache line, as a device's does: only then are tiles stored past the caches.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* memory, std::size_t) { ::operator delete(memory, kLine); }
+  friend bool operator==(LineAllocator, LineAllocator) { return true; }
+};
+using Vram = std::vector<std::byte, LineAllocator<std::byte>>;
+
 class FlatMemory final : public BusMemory {
  public:
   FlatMemory(std::size_t ram_bytes, std::size_t vram_bytes) : ram(ram_bytes), vram(vram_bytes) {}
-  std::vector<std::byte> ram, vram;
+  std::vector<std::byte> ram;
+  Vram vram;
 
  private:
   std::span<const std::byte> do_read_window(BusAddress address, std::size_t size) const override {
@@ -31,7 +44,8 @@ class FlatMemory final : public BusMemory {
     if (address >= kVram) return window(vram, address - kVram, size);
     return address >= kRam ? window(ram, address - kRam, size) : std::span<std::byte>{};
   }
-  static std::span<std::byte> window(std::vector<std::byte>& m, std::size_t at, std::size_t size) {
+  template <class Bytes>
+  static std::span<std::byte> window(Bytes& m, std::size_t at, std::size_t size) {
     return at > m.size() || size > m.size() - at ? std::span<std::byte>{} : std::span<std::byte>(m.data() + at, size);
   }
 };
@@ -41,6 +55,7 @@ struct EngineSetup {
   std::size_t work_bytes = 1u << 20;
   ParallelRunner* runner = nullptr;
   const soft::Kernels* kernels = nullptr;
+  std::size_t streaming_bytes = soft::kStreamingBytes;
 };
 
 /// A picture of `width` x `height`: colour plane at the start of VRAM, depth plane behind it.
@@ -108,7 +123,7 @@ class Bench {
 
   ExecutionReport run(const EngineSetup& setup = {}) {
     std::vector<std::byte> work(setup.work_bytes);
-    SoftEngine engine({work, setup.runner, setup.kernels});
+    SoftEngine engine({work, setup.runner, setup.kernels, setup.streaming_bytes});
     return run_on(engine);
   }
   ExecutionReport run_on(Engine& engine) {
@@ -144,7 +159,7 @@ class Bench {
   }
 
   FlatMemory& memory() { return memory_; }
-  const std::vector<std::byte>& vram() const { return memory_.vram; }
+  const Vram& vram() const { return memory_.vram; }
   std::uint32_t used_words() const { return used_; }
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
