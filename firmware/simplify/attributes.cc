@@ -10,8 +10,8 @@ std::uint32_t mix_channel(std::uint32_t a, std::uint32_t b, float t) {
 
 }  // namespace
 
-AttributeShares shares_at(float t, float area_of_first, float area_of_second) {
-  const float first = (1.0f - t) * area_of_first, second = t * area_of_second;
+AttributeShares shares_at(float t, float weight_of_first, float weight_of_second) {
+  const float first = (1.0f - t) * weight_of_first, second = t * weight_of_second;
   const float both = first + second;
   return {t, both > 0 ? second / both : t};
 }
@@ -20,7 +20,7 @@ void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, AttributeShares 
   if (normals != nullptr && normals[to] != normals[from]) {
     const Vec3 a = unpack(normals[to]), b = unpack(normals[from]);
     const Vec3 mixed = a * (1.0f - shares.normal) + b * shares.normal;
-    // Opposite normals have no mean; the nearer end's then stays.
+    // Opposite normals have no mean; that of the larger share then stays.
     normals[to] = pack_normal(normalized(mixed, shares.normal < 0.5f ? a : b));
   }
   if (colours != nullptr && colours[to] != colours[from]) {

@@ -11,14 +11,14 @@ namespace usuzumi::firmware {
 /// How much of the second end's attributes the new vertex gets, in [0, 1].
 struct AttributeShares {
   float colour = 0.5f;  // by place: colours lie on the surface
-  float normal = 0.5f;  // by place and area: what looks evenly lit is mostly the largest faces around
+  float normal = 0.5f;  // by place and weight: what has to look evenly lit is mostly the largest faces around
 
   AttributeShares reversed() const { return {1.0f - colour, 1.0f - normal}; }
 };
 
-/// Where the new vertex lies `t` of the way from one end to the other, and the ends have these areas around them. A bevel's
-/// normal would otherwise be drawn as a gradient over the wide flat face beside it.
-AttributeShares shares_at(float t, float area_of_first, float area_of_second);
+/// Where the new vertex lies `t` of the way from one end to the other. The weights are those of the ends' quadrics, which
+/// grow with the area around: a bevel's normal would otherwise be drawn as a gradient over the wide flat face beside it.
+AttributeShares shares_at(float t, float weight_of_first, float weight_of_second);
 
 struct WedgeAttributes {
   PackedNormal* normals = nullptr;  // null where absent

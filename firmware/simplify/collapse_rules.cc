@@ -16,7 +16,7 @@ constexpr std::uint32_t count_a(std::uint32_t mark) { return mark & kCountMask; 
 constexpr std::uint32_t count_b(std::uint32_t mark) { return (mark >> 4) & kCountMask; }
 
 // A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by 90 in all: no face ever looks
-// to the side that was its back.
+// to the side that was its back (a face without area had none), to the tenth of a degree of a packed normal.
 constexpr float kLeastCosineSquared = 0.2f * 0.2f;
 // Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is less
 // than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of 48

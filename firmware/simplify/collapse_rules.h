@@ -55,8 +55,8 @@ class CollapseRules {
   /// more faces than two that no edge there had before.
   bool keeps_topology(Neighbourhood& n);
 
-  /// True when moving both ends to `position` turns a remaining face by more than the limit, away from the side that it
-  /// looked to in the model, or makes it a sliver. `n` is
+  /// True when moving both ends to `position` turns a remaining face by more than the limit, or away from the side it looked
+  /// to in the model, or makes it a sliver. `n` is
   /// of the last call of keeps_topology, and that returned true.
   bool turns_a_face(const Neighbourhood& n, Vec3 position) const;
 

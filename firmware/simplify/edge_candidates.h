@@ -28,12 +28,12 @@ class EdgeCandidates {
   EdgeKey horizon() const { return horizon_; }
 
   std::size_t size() const { return count_; }
-  /// The key that exactly `rank` of them are less than; the horizon where there are no more than that.
+  /// The key at place `rank` (from 0) of the sorted candidates; the horizon where there are no more than that.
   EdgeKey key_of_rank(std::size_t rank) const;
 
   /// A pass: begin, then take batches until one is empty.
   void begin_pass() { read_ = write_ = 0; }
-  /// Moves the next keys below `limit` to `batch`, as many as it holds; how many.
+  /// Moves the next keys below `limit` to `batch`, which holds at least one, as many as fit; how many.
   std::size_t take(EdgeKey limit, std::span<EdgeKey> batch);
   /// Between two batches of a pass: keeps a key for the next pass, where it is below the horizon and there is room.
   void keep(EdgeKey key) {

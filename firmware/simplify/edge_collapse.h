@@ -12,7 +12,7 @@ namespace usuzumi::firmware {
 struct CollapsedEdge {
   std::uint32_t vertex = 0;             // the one that stays: the lower number
   std::uint32_t faces_removed = 0;
-  std::uint32_t uncosted_count = 0;     // edges whose queue entry went with a removed face
+  std::uint32_t uncosted_count = 0;     // edges whose entries went with a removed face
   Corner uncosted[kMostFacesOnEdge];
 };
 

@@ -15,6 +15,13 @@ constexpr float kFarthestMinimumSquared = 4.0f;
 QuadricOf<float> lanes_of(const Quadric& q) { return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c}; }
 Quadric quadric_of(const QuadricOf<float>& q) { return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c}; }
 
+// 32-bit NEON takes denormal numbers for zero; the scalar unit beside it does not.
+#if defined(__ARM_NEON) && !defined(__aarch64__)
+constexpr bool kFourAtOnce = false;
+#else
+constexpr bool kFourAtOnce = true;
+#endif
+
 bool believable(float d0, float d1, float d2, float far_squared, float edge_squared) {
   return d0 > 0 && d1 > 0 && d2 > 0 && far_squared <= kFarthestMinimumSquared * edge_squared;
 }
@@ -91,7 +98,7 @@ void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement
     return cost_edge(surface, surface.vertex_at(edge), surface.vertex_at(next_in_face(edge)), placement).cost;
   };
   std::size_t first = 0;
-  if (placement == Placement::kOptimal) {
+  if (kFourAtOnce && placement == Placement::kOptimal) {
     for (; first + 4 <= edges.size(); first += 4) {
       const Quadric *qa[4], *qb[4];
       Vec3 sides[4];

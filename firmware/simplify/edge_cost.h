@@ -30,7 +30,8 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
 /// little higher; most edges are costed more often than collapsed, and never get here.
 Vec3 refined_offset(const EdgeCost& cost);
 
-/// The same costs, bit for bit, of many half-edges' edges.
+/// The same costs, bit for bit, of many half-edges' edges. An edge that nothing has changed therefore has the key it was
+/// found with when it comes to the front; that every fill gets something done rests on it.
 void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement placement, float* costs);
 
 }  // namespace usuzumi::firmware

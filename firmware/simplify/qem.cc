@@ -15,6 +15,7 @@
 #include "firmware/simplify/edge_cost.h"
 #include "firmware/simplify/edge_queue.h"
 #include "firmware/simplify/initial_quadrics.h"
+#include "firmware/simplify/qem_scratch.h"
 #include "firmware/simplify/simplify.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/weld.h"
@@ -23,40 +24,6 @@ namespace usuzumi::firmware {
 namespace {
 
 constexpr std::uint32_t kEdgesAtOnce = 256;  // costed in one go when candidates are looked for; arbitrary
-
-constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
-
-constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
-
-// Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges that
-// grow dearer leave the table at once and are found again, four at a time, by a later fill; more were measured to be
-// slower. Small meshes keep half of their edges: there a fill is what costs. Both numbers by measuring.
-constexpr std::size_t kCandidatesOfSmallMeshes = 2048;
-constexpr std::size_t candidate_slots(std::uint32_t face_count) {
-  const std::size_t some = std::size_t{face_count} / 4;
-  const std::size_t half = std::size_t{face_count} * 3 / 4 + 16;
-  const std::size_t least = half < kCandidatesOfSmallMeshes ? half : kCandidatesOfSmallMeshes;
-  return some > least ? some : least;
-}
-
-// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 50 bytes each with
-// their vertices) is to stay in the nearer caches. By measuring.
-constexpr std::size_t kMostInBatch = 2048;
-constexpr std::size_t batch_size(std::uint32_t face_count) {
-  const std::size_t slots = candidate_slots(face_count);
-  return slots < kMostInBatch ? slots : kMostInBatch;
-}
-constexpr std::size_t queue_slots(std::uint32_t face_count) {  // with room for edges that a collapse brings up
-  return batch_size(face_count) + batch_size(face_count) / 8;
-}
-
-// The welding table lies where links and queue come to lie later.
-constexpr std::size_t links_and_queue_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  const std::size_t later = aligned(std::size_t{face_count} * 16) + aligned(candidate_slots(face_count) * sizeof(EdgeKey)) +
-                            aligned(queue_slots(face_count) * sizeof(EdgeKey));
-  const std::size_t table = weld_table_slots(vertex_count) * 4;
-  return later > table ? later : table;
-}
 
 // Coordinates are brought near this by a power of two, exactly, so that neither squared areas nor costs leave the range
 // of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
@@ -126,6 +93,7 @@ class QemSimplifier {
   CollapseRules rules_;
   EdgeCandidates candidates_;
   EdgeQueue queue_;  // a batch of candidates
+  std::size_t batch_size_ = 0;
   EdgeKey limit_ = 0;  // of the pass: what costs more is left for a later one
   std::span<std::uint32_t> vertex_of_wedge_;
   std::span<std::uint32_t> weld_table_;
@@ -136,19 +104,16 @@ class QemSimplifier {
 };
 
 bool QemSimplifier::carve(Arena& scratch) {
-  const std::span<std::byte> memory =
-      scratch.allocate<std::byte>(qem_scratch_bytes(mesh_.vertex_count, mesh_.face_count) - kAlignment, kAlignment);
-  if (memory.data() == nullptr) return false;
-  Arena arena(memory);
-  vertex_of_wedge_ = arena.allocate<std::uint32_t>(mesh_.vertex_count, kAlignment);
-  surface_.places = arena.allocate<Place>(mesh_.vertex_count, kAlignment).data();
-  surface_.vertices = arena.allocate<Vertex>(mesh_.vertex_count, kAlignment).data();
-  const std::size_t mark = arena.used();
-  weld_table_ = arena.allocate<std::uint32_t>(weld_table_slots(mesh_.vertex_count), kAlignment);
-  arena.rewind(mark);
-  surface_.links = arena.allocate<std::uint32_t>(std::size_t{mesh_.face_count} * 4, kAlignment).data();
-  candidates_ = EdgeCandidates(arena.allocate<EdgeKey>(candidate_slots(mesh_.face_count), kAlignment));
-  queue_ = EdgeQueue(arena.allocate<EdgeKey>(queue_slots(mesh_.face_count), kAlignment));
+  QemScratch memory;
+  if (!carve_qem_scratch(scratch, mesh_.vertex_count, mesh_.face_count, memory)) return false;
+  vertex_of_wedge_ = memory.vertex_of_wedge;
+  weld_table_ = memory.weld_table;
+  surface_.places = memory.places.data();
+  surface_.vertices = memory.vertices.data();
+  surface_.links = memory.links.data();
+  candidates_ = EdgeCandidates(memory.candidates);
+  queue_ = EdgeQueue(memory.queue);
+  batch_size_ = memory.batch_size;
   surface_.indices = mesh_.indices.data();
   surface_.vertex_count = mesh_.vertex_count;
   surface_.face_count = mesh_.face_count;
@@ -197,8 +162,7 @@ void QemSimplifier::collapse_to_target() {
     // A collapse removes two faces at most (more only where the surface is no manifold), so this many candidates cannot
     // reach the target before every region has had its turn; the last batch is then one of the whole mesh, by cost alone.
     const std::size_t most = (faces_ - options_.target_faces) / 2;
-    const std::size_t batch = batch_size(surface_.face_count);
-    run_pass(most > batch ? most : batch);
+    run_pass(most > batch_size_ ? most : batch_size_);
   }
 }
 
@@ -207,7 +171,7 @@ void QemSimplifier::run_pass(std::size_t rank) {
   limit_ = candidates_.key_of_rank(rank);
   candidates_.begin_pass();
   for (;;) {
-    const std::size_t count = candidates_.take(limit_, queue_.slots().first(batch_size(surface_.face_count)));
+    const std::size_t count = candidates_.take(limit_, queue_.slots().first(batch_size_));
     if (count == 0) return;
     fetch_region(queue_.slots().first(count));
     queue_.start(count);
@@ -308,7 +272,6 @@ void QemSimplifier::offer(std::span<const Corner> edges) {
   cost_edges(surface_, edges, options_.placement, costs);
   for (std::size_t i = 0; i < edges.size(); ++i) candidates_.offer(edge_key(costs[i], edges[i]));
   outcome_.work.edges_costed += edges.size();
-  outcome_.work.queue_operations += edges.size();
 }
 
 void QemSimplifier::push_edge(Corner edge) {
@@ -417,12 +380,6 @@ Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& o
   const ScratchScope scope(scratch);
   QemSimplifier simplifier(mesh, options);
   return simplifier.run(scratch);
-}
-
-std::size_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  return kAlignment + aligned(std::size_t{vertex_count} * 4) + aligned(std::size_t{vertex_count} * sizeof(Place)) +
-         aligned(std::size_t{vertex_count} * sizeof(Vertex)) +
-         links_and_queue_bytes(vertex_count, face_count);
 }
 
 }  // namespace usuzumi::firmware

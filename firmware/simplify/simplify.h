@@ -51,10 +51,11 @@ struct SimplifyOutcome {
 
 /// Quadric error edge collapse (Garland & Heckbert 1997) down to `options.target_faces`. On return the mesh's counts are
 /// the thinned ones and its spans' first elements hold the result, unreferenced vertices removed, original order kept.
-/// kResourceExhausted: `scratch` is too small; the mesh is as it was. `scratch` is left as it was found.
+/// kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it was. `scratch`
+/// is left as it was found.
 Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
 
-/// Bytes of scratch that simplify_qem needs for a mesh of these counts.
-std::size_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count);
+/// Bytes of scratch that simplify_qem needs for a mesh of these counts. May be more than the device can address.
+std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count);
 
 }  // namespace usuzumi::firmware

@@ -5,7 +5,7 @@
 // faces, fans that touch in a point, faces turned the other way. Merging two vertices joins two lists.
 //
 // Corner k also stands for the half-edge from vertex k to vertex k + 1 of its face. Of all the half-edges of an edge
-// exactly one is its representative; the edge's number in the queue is that corner.
+// exactly one is its representative; the edge's number in its key is that corner.
 //
 // A wedge is one entry of the vertex arrays: a position with a normal and a colour. A vertex is all wedges of the same
 // position; it goes by the number of the first of them. Indices always name wedges.

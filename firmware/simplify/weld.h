@@ -9,9 +9,9 @@
 namespace usuzumi::firmware {
 
 /// Slots of the hash table for `vertex_count` wedges: a power of two, at most two thirds full.
-constexpr std::size_t weld_table_slots(std::uint32_t vertex_count) {
-  std::size_t slots = 4;
-  while (slots < std::size_t{vertex_count} + vertex_count / 2) slots *= 2;
+constexpr std::uint64_t weld_table_slots(std::uint32_t vertex_count) {
+  std::uint64_t slots = 4;
+  while (slots < std::uint64_t{vertex_count} + vertex_count / 2) slots *= 2;
   return slots;
 }
 

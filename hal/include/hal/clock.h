@@ -15,7 +15,7 @@ enum class CpuWork : std::uint8_t {
   kFaceMeasured,      // one face projected, clipped and added to the area on screen
   kConnectivityBuilt, // one face entered into the mesh connectivity
   kEdgeCosted,        // one edge's quadric error and placement evaluated
-  kQueueOperation,    // one edge put into or taken from the cost order
+  kQueueOperation,    // one edge taken from the cost order, or put back into it
   kEdgeCollapsed,     // one edge collapse carried out
   kCommandWritten,    // one command-list word
   kCount
