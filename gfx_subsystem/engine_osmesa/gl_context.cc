@@ -16,6 +16,7 @@ Status unavailable(const char* message) { return {StatusCode::kUnavailable, mess
 void choose_driver(std::uint32_t threads) {
   constexpr int kKeepUsers = 0;
   ::setenv("GALLIUM_DRIVER", "llvmpipe", kKeepUsers);
+  ::setenv("MESA_SHADER_CACHE_DISABLE", "true", kKeepUsers);  // nothing is left in the user's home
   if (threads == 0) return;  // llvmpipe's default: one per processor
   // llvmpipe counts the threads beside the caller's and lets the caller rasterize only when there are none.
   ::setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), kKeepUsers);

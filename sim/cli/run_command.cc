@@ -236,7 +236,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--orbit", options->orbit, "Turn once around the model over the frames");
   command->add_option("--camera", options->camera,
                       "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, \"near\": …, \"far\": …}, …]}");
-  command->add_option("--thin", options->thin, "Thin as the authors allowed, or draw everything")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+  command->add_option("--thin", options->thin, "Thin as the authors allowed, or draw all that fits")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
   command->add_option("--quota", options->quota,
                       "Faces for level-3 meshes instead of the authors' quotas: N over all of them, or P% of each");
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")

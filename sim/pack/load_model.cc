@@ -101,6 +101,7 @@ void finish(const std::string& file, Model& model) {
     mesh.mesh_name = clean_name(mesh.mesh_name);
     mesh.node_name = clean_name(mesh.node_name);
     check_mesh(file, mesh);
+    drop_rounding_noise(mesh);
     const std::uint32_t empty = remove_faces_without_area(mesh);
     empty_faces += empty;
     if (empty > 0) ++meshes_with_empty_faces;

@@ -1,7 +1,9 @@
 #include "sim/pack/weld.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <unordered_map>
 #include <utility>
@@ -27,6 +29,14 @@ using WordsMap = std::unordered_map<std::array<std::uint32_t, N>, std::uint32_t,
 std::uint32_t bits(float c) { return std::bit_cast<std::uint32_t>(c + 0.0f); }
 
 }  // namespace
+
+void drop_rounding_noise(Mesh& mesh) {
+  float largest = 0;
+  for (const Vec3& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const float noise = largest * 0x1p-30f;
+  const auto rid = [noise](float c) { return std::abs(c) <= noise ? 0.0f : c; };
+  for (Vec3& p : mesh.positions) p = {rid(p.x), rid(p.y), rid(p.z)};
+}
 
 PositionIds number_positions(std::span<const Vec3> positions) {
   PositionIds ids;

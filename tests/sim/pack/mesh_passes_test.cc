@@ -113,6 +113,32 @@ TEST(Weld, JoinsVerticesOfEqualPositionNormalAndColourOnly) {
   EXPECT_EQ(faces_of(mesh), before);
 }
 
+TEST(Weld, PolesAndSeamsOfASphereMadeWithSinesClose) {
+  constexpr std::uint32_t kRings = 6, kSegments = 12;
+  Mesh mesh;
+  for (std::uint32_t j = 0; j <= kRings; ++j)
+    for (std::uint32_t i = 0; i <= kSegments; ++i) {  // the seam twice, as texture coordinates ask for
+      const double theta = M_PI * j / kRings, phi = 2 * M_PI * i / kSegments;
+      mesh.positions.push_back({static_cast<float>(50 * std::sin(theta) * std::cos(phi)), static_cast<float>(50 * std::cos(theta)),
+                                static_cast<float>(50 * std::sin(theta) * std::sin(phi))});
+    }
+  EXPECT_GT(sim::number_positions(mesh.positions).first_vertex.size(), (kRings - 1) * kSegments + 2) << "sin(pi) is not 0";
+  sim::drop_rounding_noise(mesh);
+  EXPECT_EQ(sim::number_positions(mesh.positions).first_vertex.size(), (kRings - 1) * kSegments + 2);
+}
+
+TEST(Weld, OnlyWhatIsNothingBesideTheMeshIsDropped) {
+  Mesh mesh;
+  mesh.positions = {{4, 4e-9f, -3.7e-9f}, {0, -4, 5e-9f}};  // 2^-30 of 4 is 3.73e-9
+  sim::drop_rounding_noise(mesh);
+  EXPECT_EQ(mesh.positions[0], (Vec3{4, 4e-9f, 0}));
+  EXPECT_EQ(mesh.positions[1], (Vec3{0, -4, 5e-9f}));
+  Mesh tiny;
+  tiny.positions = {{1e-30f, 0, 2e-30f}};
+  sim::drop_rounding_noise(tiny);
+  EXPECT_EQ(tiny.positions[0], (Vec3{1e-30f, 0, 2e-30f}));
+}
+
 TEST(Weld, RemovesFacesThatRepeatAPlace) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
