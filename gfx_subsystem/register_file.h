@@ -1,5 +1,5 @@
-// A block of 32-bit device registers described by a table: the table states names, resets and which bits can be written;
-// this code does the rest, and calls the device only where a register has an effect of its own.
+// A block of 32-bit device registers described by a table: the table states names, resets and which bits can be
+// written; this code does the rest, and calls the device only where a register has an effect of its own.
 //
 // A device keeps a `static constexpr std::array<RegisterInfo<Device>, N>` and a `RegisterFile<Device, N>`:
 //
@@ -7,9 +7,9 @@
 //   {.name = "STATUS",  .offset = 0x04, .write_1_to_clear = 0x7, .on_write = &Device::on_status},
 //   {.name = "COUNT",   .offset = 0x08, .read_only = 0xFFFFFFFF, .on_read = &Device::on_count},
 //
-// Two classes of trouble are kept apart. A *guest mistake* is the firmware's fault: an access the register page forbids.
-// An *unimplemented* access is ours: the page of a real part allows it and this model does not do it. Neither stops the
-// machine, as on hardware; both are counted and shown to a RegisterLog.
+// Two classes of trouble are kept apart. A *guest mistake* is the firmware's fault: an access the register page
+// forbids. An *unimplemented* access is ours: the page of a real part allows it and this model does not do it. Neither
+// stops the machine, as on hardware; both are counted and shown to a RegisterLog.
 #pragma once
 
 #include <array>
@@ -103,7 +103,9 @@ class RegisterFile {
   using Table = std::array<RegisterInfo<Device>, N>;
 
   /// `table` lives as long as the file; `log` may be null.
-  constexpr explicit RegisterFile(const Table& table, RegisterLog* log = nullptr) : table_(table), log_(log) { reset(); }
+  constexpr explicit RegisterFile(const Table& table, RegisterLog* log = nullptr) : table_(table), log_(log) {
+    reset();
+  }
 
   /// Every register to its reset value; counts of mistakes stay.
   constexpr void reset() {

@@ -1,11 +1,11 @@
-// Method: V. Gopal et al., "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ Instruction", Intel 2009, in its
-// bit-reflected form; only the folding. The last 16 bytes are left to the table-driven division, which spares the Barrett
-// reduction.
+// Method: V. Gopal et al., "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ Instruction", Intel 2009, in
+// its bit-reflected form; only the folding. The last 16 bytes are left to the table-driven division, which spares the
+// Barrett reduction.
 //
 // A register of 128 bits R = (lo, hi) holds a part of the message; reflected, lo is of higher degree. To move it D bits
-// further up, lo is multiplied by x^(D + 32) and hi by x^(D - 32), each modulo P, and both products are added (XOR) to what
-// stands there. The factor x^32 in the exponents and the shift by one in fold_constant() make up for reflected products
-// standing one bit low in 64 x 64 -> 127 bits.
+// further up, lo is multiplied by x^(D + 32) and hi by x^(D - 32), each modulo P, and both products are added (XOR) to
+// what stands there. The factor x^32 in the exponents and the shift by one in fold_constant() make up for reflected
+// products standing one bit low in 64 x 64 -> 127 bits.
 #include "hal/crc32_fold.h"
 
 #include <immintrin.h>
@@ -34,7 +34,8 @@ USUZUMI_CLMUL_INLINE __m128i load(const std::byte* from) {
 
 /// `r` moved up by the constants' distance, added to `next`.
 USUZUMI_CLMUL_INLINE __m128i fold(__m128i r, __m128i constants, __m128i next) {
-  return _mm_xor_si128(next, _mm_xor_si128(_mm_clmulepi64_si128(r, constants, 0x00), _mm_clmulepi64_si128(r, constants, 0x11)));
+  return _mm_xor_si128(
+      next, _mm_xor_si128(_mm_clmulepi64_si128(r, constants, 0x00), _mm_clmulepi64_si128(r, constants, 0x11)));
 }
 
 }  // namespace

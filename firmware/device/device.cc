@@ -23,7 +23,8 @@ Status Device::boot(const DeviceConfig& config) {
   if (!data.ok()) return data.status();
   data_ = *data;
 
-  const auto vram = plan_vram(ports_.vram_base, ports_.vram_bytes, config.width, config.height, config.pixel_format, config.depth_format);
+  const auto vram = plan_vram(ports_.vram_base, ports_.vram_bytes, config.width, config.height, config.pixel_format,
+                              config.depth_format);
   if (!vram.ok()) return vram.status();
   vram_ = *vram;
 
@@ -100,7 +101,8 @@ Status Device::show_picture(FrameReport& report) {
       status = ports_.interrupts.wait(Interrupt::kVerticalBlank, kVerticalBlankTimeoutUs);
       if (!status.ok()) return status;
     }
-    if (display_.flip_pending(kPictureLayer)) return {StatusCode::kDeadlineExceeded, "display: no vertical blank took the flip", 0};
+    if (display_.flip_pending(kPictureLayer))
+      return {StatusCode::kDeadlineExceeded, "display: no vertical blank took the flip", 0};
   }
   report.shown_in_frame = display_.frame_count() + 1;
   back_ ^= 1;

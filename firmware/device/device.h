@@ -59,10 +59,12 @@ struct FrameReport {
 class Device {
  public:
   explicit Device(const DevicePorts& ports)
-      : ports_(ports), engine_(ports.registers, ports.engine_base, ports.interrupts), display_(ports.registers, ports.display_base) {}
+      : ports_(ports),
+        engine_(ports.registers, ports.engine_base, ports.interrupts),
+        display_(ports.registers, ports.display_base) {}
 
-  /// Checks the drawing data, carves RAM and VRAM and brings up engine and display. The panel stays dark until the first
-  /// frame is drawn.
+  /// Checks the drawing data, carves RAM and VRAM and brings up engine and display. The panel stays dark until the
+  /// first frame is drawn.
   Status boot(const DeviceConfig& config);
 
   /// Thins what has changed, draws into the picture that is not shown, and returns once it is.

@@ -9,13 +9,15 @@ constexpr float kMarkSize = 2;
 template <class... Packets>
 constexpr std::uint32_t words_of = ((1 + command::kPayloadWords<Packets>) + ...);
 
-constexpr std::uint32_t kFrameWords =
-    words_of<command::SetColourTarget, command::SetDepthTarget, command::Clear, command::SetTransform, command::SetLight> + 2;
+constexpr std::uint32_t kFrameWords = words_of<command::SetColourTarget, command::SetDepthTarget, command::Clear,
+                                               command::SetTransform, command::SetLight> +
+                                      2;
 constexpr std::uint32_t kMeshWords = words_of<command::SetRasterState, command::SetVertexStreams, command::Draw>;
 
 void put_frame_state(command::Writer& list, const View& view, const Lighting& lighting, const FrameTarget& target) {
   const bool depth = target.depth_format != command::DepthFormat::kNone;
-  list.put(command::SetColourTarget{target.picture, target.picture_stride_bytes, view.width, view.height, target.format});
+  list.put(
+      command::SetColourTarget{target.picture, target.picture_stride_bytes, view.width, view.height, target.format});
   if (depth) list.put(command::SetDepthTarget{target.depth, target.depth_stride_bytes, target.depth_format});
   list.put(command::Clear{command::kClearColour | (depth ? command::kClearDepth : 0u), lighting.background, 1});
   list.put(command::SetTransform{view.model_to_clip});

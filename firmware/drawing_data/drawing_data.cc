@@ -70,7 +70,8 @@ Status check_records(const Words& words, std::uint32_t begin, std::uint32_t end)
   if (end - begin < 4) return damaged("no room for mesh-max at byte offset", begin);
   const std::uint32_t mesh_max = words.at(begin);
   if (mesh_max == 0) return damaged("mesh-max is 0: there is nothing to draw, at byte offset", begin);
-  if (mesh_max > format::kMaxMeshes) return damaged("mesh-max is above 65535 (or this is no drawing data), at byte offset", begin);
+  if (mesh_max > format::kMaxMeshes)
+    return damaged("mesh-max is above 65535 (or this is no drawing data), at byte offset", begin);
   std::uint32_t offset = begin + 4;
   for (std::uint32_t n = 0; n < mesh_max; ++n) {
     Status status = check_record(words, offset, end);
@@ -106,10 +107,13 @@ struct Sections {
 };
 
 Status check_header(const Words& words, std::size_t rom_bytes) {
-  if (rom_bytes < sizeof(format::Header)) return damaged("file ends inside the header; bytes present", static_cast<std::uint32_t>(rom_bytes));
+  if (rom_bytes < sizeof(format::Header))
+    return damaged("file ends inside the header; bytes present", static_cast<std::uint32_t>(rom_bytes));
   const auto header = words.object<format::Header>(0);
-  if (header.byte_order != format::kByteOrderMark) return damaged("byte-order mark is wrong: pack for a little-endian device, at byte offset", 4);
-  if (header.version_major != format::kVersionMajor) return unsupported("container is of another major version: pack it again with this release, at byte offset", 8);
+  if (header.byte_order != format::kByteOrderMark)
+    return damaged("byte-order mark is wrong: pack for a little-endian device, at byte offset", 4);
+  if (header.version_major != format::kVersionMajor)
+    return unsupported("container is of another major version: pack it again with this release, at byte offset", 8);
   if (header.flags != 0) return unsupported("container has flags this release does not know, at byte offset", 12);
   if (header.file_bytes > rom_bytes) return damaged("file is truncated: it should have bytes", header.file_bytes);
   if (header.file_bytes < rom_bytes) return damaged("file is too long: it should end at byte", header.file_bytes);
@@ -120,7 +124,8 @@ Status check_header(const Words& words, std::size_t rom_bytes) {
 Status read_sections(const Words& words, std::uint32_t file_bytes, Sections& sections) {
   const auto count = words.object<format::Header>(0).section_count;
   constexpr std::uint32_t kTable = sizeof(format::Header);
-  if (count > (file_bytes - kTable) / sizeof(format::Section)) return damaged("section table runs past the end of the file, at byte offset", kCrcStart);
+  if (count > (file_bytes - kTable) / sizeof(format::Section))
+    return damaged("section table runs past the end of the file, at byte offset", kCrcStart);
   const std::uint32_t table_end = kTable + count * static_cast<std::uint32_t>(sizeof(format::Section));
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t at = kTable + i * static_cast<std::uint32_t>(sizeof(format::Section));
@@ -128,8 +133,8 @@ Status read_sections(const Words& words, std::uint32_t file_bytes, Sections& sec
     Range* range = sections.of(section.type);
     if (range == nullptr) return unsupported("section of a kind this release does not know, at byte offset", at);
     if (range->end != 0) return damaged("section appears twice, at byte offset", at);
-    if (section.offset % 4 != 0 || section.bytes % 4 != 0 || section.offset < table_end || section.offset > file_bytes ||
-        section.bytes > file_bytes - section.offset)
+    if (section.offset % 4 != 0 || section.bytes % 4 != 0 || section.offset < table_end ||
+        section.offset > file_bytes || section.bytes > file_bytes - section.offset)
       return damaged("section lies outside the file or is not aligned to 4 bytes, at byte offset", at);
     *range = {section.offset, section.offset + section.bytes};
   }
@@ -149,23 +154,31 @@ Status check_indices(const Words& words, const format::MeshDescriptor& d, std::u
   return ok_status();
 }
 
-Status check_topology(const Words& words, const Sections& sections, const format::MeshDescriptor& d, std::uint32_t vertices,
-                      std::uint32_t at) {
-  if (d.topology > format::Topology::kIndexed) return damaged("unknown topology, in the mesh descriptor at byte offset", at);
+Status check_topology(const Words& words, const Sections& sections, const format::MeshDescriptor& d,
+                      std::uint32_t vertices, std::uint32_t at) {
+  if (d.topology > format::Topology::kIndexed)
+    return damaged("unknown topology, in the mesh descriptor at byte offset", at);
   if (d.topology == format::Topology::kIndexed) {
     if ((d.index_bytes != 2 && d.index_bytes != 4) || d.index_count % 3 != 0 ||
         !sections.indices.holds(d.index_offset, std::uint64_t{d.index_count} * d.index_bytes))
-      return damaged("indices are not 2 or 4 bytes, not three a face, or outside section INDX, in the mesh descriptor at byte offset", at);
-    return d.index_bytes == 2 ? check_indices<std::uint16_t>(words, d, vertices) : check_indices<std::uint32_t>(words, d, vertices);
+      return damaged(
+          "indices are not 2 or 4 bytes, not three a face, or outside section INDX, in the mesh descriptor at byte "
+          "offset",
+          at);
+    return d.index_bytes == 2 ? check_indices<std::uint16_t>(words, d, vertices)
+                              : check_indices<std::uint32_t>(words, d, vertices);
   }
-  if (d.index_offset != kAbsent || d.index_count != 0) return damaged("mesh has indices though its topology takes none, in the mesh descriptor at byte offset", at);
-  if (d.topology == format::Topology::kList && vertices % 3 != 0) return damaged("triangle list whose vertex count is no multiple of 3, in the mesh descriptor at byte offset", at);
+  if (d.index_offset != kAbsent || d.index_count != 0)
+    return damaged("mesh has indices though its topology takes none, in the mesh descriptor at byte offset", at);
+  if (d.topology == format::Topology::kList && vertices % 3 != 0)
+    return damaged("triangle list whose vertex count is no multiple of 3, in the mesh descriptor at byte offset", at);
   return ok_status();
 }
 
 Status check_descriptor(const Words& words, const Sections& sections, std::uint32_t at, std::uint32_t record_offset) {
   const auto d = words.object<format::MeshDescriptor>(at);
-  if (d.record_offset != record_offset) return damaged("mesh descriptor and record do not belong together, descriptor at byte offset", at);
+  if (d.record_offset != record_offset)
+    return damaged("mesh descriptor and record do not belong together, descriptor at byte offset", at);
   const std::uint32_t vertices = words.at(record_offset);
   Status status = check_topology(words, sections, d, vertices, at);
   if (!status.ok()) return status;
@@ -173,16 +186,23 @@ Status check_descriptor(const Words& words, const Sections& sections, std::uint3
     return damaged("normals lie outside section NRML, in the mesh descriptor at byte offset", at);
   if (d.colour_offset != kAbsent && !sections.colours.holds(d.colour_offset, std::uint64_t{vertices} * 4))
     return damaged("colours lie outside section COLR, in the mesh descriptor at byte offset", at);
-  if (d.name_offset == kAbsent ? d.name_bytes != 0 : (d.name_offset < sections.names.begin || d.name_offset > sections.names.end ||
-                                                      d.name_bytes > sections.names.end - d.name_offset))
+  if (d.name_offset == kAbsent ? d.name_bytes != 0
+                               : (d.name_offset < sections.names.begin || d.name_offset > sections.names.end ||
+                                  d.name_bytes > sections.names.end - d.name_offset))
     return damaged("name lies outside section NAME, in the mesh descriptor at byte offset", at);
-  if (d.quota_kind > format::QuotaKind::kMillionths || (d.quota_kind == format::QuotaKind::kMillionths && d.quota > 1'000'000))
+  if (d.quota_kind > format::QuotaKind::kMillionths ||
+      (d.quota_kind == format::QuotaKind::kMillionths && d.quota > 1'000'000))
     return damaged("face quota is of unknown kind or above 100 %, in the mesh descriptor at byte offset", at);
-  if (!std::isfinite(d.area_threshold_px)) return damaged("area threshold is not a finite number, in the mesh descriptor at byte offset", at);
-  if (d.method > format::Method::kQem) return unsupported("thinning method of a later release, in the mesh descriptor at byte offset", at);
-  if ((d.flags & ~(format::kFlagTelltale | format::kFlagTwoSided)) != 0) return unsupported("mesh flags of a later release, in the mesh descriptor at byte offset", at);
-  if (d.texture_coordinate_offset != kAbsent || d.material != kAbsent) return unsupported("textures need a later release, in the mesh descriptor at byte offset", at);
-  if (d.reserved[0] != 0 || d.reserved[1] != 0 || d.reserved[2] != 0) return unsupported("reserved words are set, in the mesh descriptor at byte offset", at);
+  if (!std::isfinite(d.area_threshold_px))
+    return damaged("area threshold is not a finite number, in the mesh descriptor at byte offset", at);
+  if (d.method > format::Method::kQem)
+    return unsupported("thinning method of a later release, in the mesh descriptor at byte offset", at);
+  if ((d.flags & ~(format::kFlagTelltale | format::kFlagTwoSided)) != 0)
+    return unsupported("mesh flags of a later release, in the mesh descriptor at byte offset", at);
+  if (d.texture_coordinate_offset != kAbsent || d.material != kAbsent)
+    return unsupported("textures need a later release, in the mesh descriptor at byte offset", at);
+  if (d.reserved[0] != 0 || d.reserved[1] != 0 || d.reserved[2] != 0)
+    return unsupported("reserved words are set, in the mesh descriptor at byte offset", at);
   return ok_status();
 }
 
@@ -214,16 +234,19 @@ MeshView bare_view(const Words& words, std::uint32_t n, std::uint32_t record_off
 Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   if (reinterpret_cast<std::uintptr_t>(rom.data()) % 4 != 0)
     return Status{StatusCode::kInvalidArgument, "drawing data must begin at a multiple of 4 bytes", 0};
-  if (rom.size() < 4) return damaged("file is too short for drawing data; bytes present", static_cast<std::uint32_t>(rom.size()));
+  if (rom.size() < 4)
+    return damaged("file is too short for drawing data; bytes present", static_cast<std::uint32_t>(rom.size()));
   if (rom.size() > format::kMaxFileBytes) return unsupported("drawing data is larger than 1 GiB", 0);
   const Words words(rom);
   const auto size = static_cast<std::uint32_t>(rom.size());
   DrawingData data;
   data.rom_ = rom;
 
-  if (words.at(0) == __builtin_bswap32(format::kMagic)) return damaged("container is big-endian: pack for a little-endian device, at byte offset", 0);
+  if (words.at(0) == __builtin_bswap32(format::kMagic))
+    return damaged("container is big-endian: pack for a little-endian device, at byte offset", 0);
   if (words.at(0) != format::kMagic) {
-    if (size % 4 != 0) return damaged("neither a container (no magic USZ1) nor bare data (size is no multiple of 4); bytes", size);
+    if (size % 4 != 0)
+      return damaged("neither a container (no magic USZ1) nor bare data (size is no multiple of 4); bytes", size);
     Status status = check_records(words, 0, size);
     if (!status.ok()) return status;
     data.mesh_max_ = words.at(0);
@@ -260,13 +283,15 @@ MeshView DrawingData::mesh(std::uint32_t n) const {
 MeshView DrawingData::mesh_at(std::uint32_t n, std::uint32_t record_offset) const {
   const Words words(rom_);
   if (bare_) return bare_view(words, n, record_offset);
-  const auto d = words.object<format::MeshDescriptor>(descriptors_offset_ + n * static_cast<std::uint32_t>(sizeof(format::MeshDescriptor)));
+  const auto d = words.object<format::MeshDescriptor>(descriptors_offset_ +
+                                                      n * static_cast<std::uint32_t>(sizeof(format::MeshDescriptor)));
   MeshView view = bare_view(words, n, d.record_offset);
   const auto vertices = static_cast<std::uint32_t>(view.positions.size());
   view.topology = d.topology;
   if (d.normal_offset != kAbsent) view.normals = words.array<PackedNormal>(d.normal_offset, vertices);
   if (d.colour_offset != kAbsent) view.colours = words.array<Rgba8>(d.colour_offset, vertices);
-  if (d.topology == format::Topology::kIndexed) view.indices = rom_.subspan(d.index_offset, std::size_t{d.index_count} * d.index_bytes);
+  if (d.topology == format::Topology::kIndexed)
+    view.indices = rom_.subspan(d.index_offset, std::size_t{d.index_count} * d.index_bytes);
   view.index_bytes = d.index_bytes;
   view.index_count = d.index_count;
   view.base_colour = {d.base_colour};

@@ -16,8 +16,9 @@ inline constexpr std::uint32_t kAbsent = 0xFFFFFFFF;     // an offset or number 
 /// Bounds of the format; a file beyond them is refused.
 inline constexpr std::uint32_t kMaxFileBytes = 0x40000000;
 inline constexpr std::uint32_t kMaxMeshes = 65535;
-/// Largest magnitude of a coordinate. The squared length of a face's area vector, a fourth power of distances up to twice
-/// this, reaches 2e34: finite in single precision, with room for sums of many faces and for the camera's matrices.
+/// Largest magnitude of a coordinate. The squared length of a face's area vector, a fourth power of distances up to
+/// twice this, reaches 2e34: finite in single precision, with room for sums of many faces and for the camera's
+/// matrices.
 inline constexpr float kMaxCoordinate = 1e8f;
 
 struct Header {                    // 32 bytes at offset 0
@@ -33,13 +34,14 @@ struct Header {                    // 32 bytes at offset 0
 static_assert(sizeof(Header) == 32);
 
 enum class SectionType : std::uint32_t {  // four letters, first in the low byte
-  kRecords = 0x44434552,       // "RECD": the bare layout, mesh-max first
-  kMeshes = 0x4448534D,        // "MSHD": one MeshDescriptor per record, same order
-  kIndices = 0x58444E49,       // "INDX"
-  kNormals = 0x4C4D524E,       // "NRML"
-  kColours = 0x524C4F43,       // "COLR"
-  kNames = 0x454D414E,                   // "NAME"
-  // Kept for later versions: "TXCO" texture coordinates, "MATL" materials, "TEXT" textures, "SOLD" solids, "LAYR" layers.
+  kRecords = 0x44434552,                  // "RECD": the bare layout, mesh-max first
+  kMeshes = 0x4448534D,                   // "MSHD": one MeshDescriptor per record, same order
+  kIndices = 0x58444E49,                  // "INDX"
+  kNormals = 0x4C4D524E,                  // "NRML"
+  kColours = 0x524C4F43,                  // "COLR"
+  kNames = 0x454D414E,                    // "NAME"
+  // Kept for later versions: "TXCO" texture coordinates, "MATL" materials, "TEXT" textures, "SOLD" solids, "LAYR"
+  // layers.
 };
 
 struct Section {                   // 16 bytes each, from offset 32
@@ -51,7 +53,11 @@ struct Section {                   // 16 bytes each, from offset 32
 static_assert(sizeof(Section) == 16);
 
 enum class Topology : std::uint32_t { kStrip = 0, kList = 1, kFan = 2, kIndexed = 3 };
-enum class QuotaKind : std::uint32_t { kNone = 0, kFaces = 1, kMillionths = 2 };  // kMillionths: of the mesh's own faces
+enum class QuotaKind : std::uint32_t {
+  kNone = 0,
+  kFaces = 1,
+  kMillionths = 2
+};  // kMillionths: of the mesh's own faces
 enum class Method : std::uint32_t { kQem = 0 };
 
 inline constexpr std::uint32_t kFlagTelltale = 1;  // never dropped, whatever memory or policy say

@@ -15,19 +15,22 @@ struct Direction {
 
 Direction direction_of(double azimuth_rad, double elevation_rad) {
   constexpr double kSteepest = 89 * kPi / 180;
-  const double elevation = elevation_rad > kSteepest ? kSteepest : (elevation_rad < -kSteepest ? -kSteepest : elevation_rad);
+  const double elevation =
+      elevation_rad > kSteepest ? kSteepest : (elevation_rad < -kSteepest ? -kSteepest : elevation_rad);
   return {sin_cos(azimuth_rad), sin_cos(elevation)};
 }
 
-/// The least distance from its middle at which a box lies inside the view. A corner at right r, height u and depth z towards
-/// the eye is inside from z + |r| / tan(half width of view) and z + |u| / tan(half height) on.
+/// The least distance from its middle at which a box lies inside the view. A corner at right r, height u and depth z
+/// towards the eye is inside from z + |r| / tan(half width of view) and z + |u| / tan(half height) on.
 double distance_to_fit(Vec3 half, const Direction& d, double tangent_x, double tangent_y) {
   double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const double x = (corner & 1) != 0 ? double{half.x} : -double{half.x}, y = (corner & 2) != 0 ? double{half.y} : -double{half.y},
+    const double x = (corner & 1) != 0 ? double{half.x} : -double{half.x},
+                 y = (corner & 2) != 0 ? double{half.y} : -double{half.y},
                  z = (corner & 4) != 0 ? double{half.z} : -double{half.z};
     const double right = x * d.azimuth.cos - z * d.azimuth.sin, ahead = x * d.azimuth.sin + z * d.azimuth.cos;
-    const double up = y * d.elevation.cos - ahead * d.elevation.sin, depth = ahead * d.elevation.cos + y * d.elevation.sin;
+    const double up = y * d.elevation.cos - ahead * d.elevation.sin,
+                 depth = ahead * d.elevation.cos + y * d.elevation.sin;
     const double needed_x = depth + std::fabs(right) / tangent_x, needed_y = depth + std::fabs(up) / tangent_y;
     if (needed_x > distance) distance = needed_x;
     if (needed_y > distance) distance = needed_y;
@@ -36,13 +39,15 @@ double distance_to_fit(Vec3 half, const Direction& d, double tangent_x, double t
 }
 
 /// Distance for a picture of `aspect`, over `sides` directions from `azimuth_rad` on.
-double fitting_distance(const Bounds& bounds, double azimuth_rad, double elevation_rad, float fov_y_rad, float aspect, int sides) {
+double fitting_distance(const Bounds& bounds, double azimuth_rad, double elevation_rad, float fov_y_rad, float aspect,
+                        int sides) {
   const Vec3 half = (bounds.high - bounds.low) * 0.5f;
   const SinCos half_view = sin_cos(double{fov_y_rad} * 0.5);
   const double tangent_y = half_view.sin / half_view.cos;
   double distance = 0;
   for (int i = 0; i < sides; ++i) {
-    const double d = distance_to_fit(half, direction_of(azimuth_rad + 2 * kPi * i / sides, elevation_rad), tangent_y * double{aspect}, tangent_y);
+    const double d = distance_to_fit(half, direction_of(azimuth_rad + 2 * kPi * i / sides, elevation_rad),
+                                     tangent_y * double{aspect}, tangent_y);
     if (d > distance) distance = d;
   }
   return kMargin * distance;
@@ -67,11 +72,14 @@ Camera stand_off(const Bounds& bounds, double azimuth_rad, double elevation_rad,
 
 Status check(const Camera& camera) {
   const auto refuse = [](const char* message) { return Status{StatusCode::kInvalidArgument, message, 0}; };
-  if (!is_finite(camera.eye) || !is_finite(camera.target) || !is_finite(camera.up)) return refuse("camera: eye, target and up must be finite numbers");
+  if (!is_finite(camera.eye) || !is_finite(camera.target) || !is_finite(camera.up))
+    return refuse("camera: eye, target and up must be finite numbers");
   const Vec3 forward = camera.target - camera.eye;
   if (!(length(forward) > 0)) return refuse("camera: eye and target are the same place");
-  if (!(length(cross(normalized(forward), normalized(camera.up, {}))) > 1e-4f)) return refuse("camera: up points along the line of sight");
-  if (!(camera.fov_y_rad > 0.001f && camera.fov_y_rad < 3.1f)) return refuse("camera: the field of view must lie between 0 and 180 degrees");
+  if (!(length(cross(normalized(forward), normalized(camera.up, {}))) > 1e-4f))
+    return refuse("camera: up points along the line of sight");
+  if (!(camera.fov_y_rad > 0.001f && camera.fov_y_rad < 3.1f))
+    return refuse("camera: the field of view must lie between 0 and 180 degrees");
   if (!(camera.near_distance > 0 && camera.far_distance > camera.near_distance && std::isfinite(camera.far_distance)))
     return refuse("camera: near and far must be 0 < near < far");
   return ok_status();
@@ -111,7 +119,8 @@ Camera view_of(const Bounds& bounds, double azimuth_rad, double elevation_rad, f
 
 Camera orbit(const Bounds& bounds, double azimuth_rad, double elevation_rad, float aspect) {
   constexpr int kSides = 64;  // from a fixed first one, so that the distance is the same all the way round
-  return stand_off(bounds, azimuth_rad, elevation_rad, fitting_distance(bounds, 0, elevation_rad, Camera{}.fov_y_rad, aspect, kSides));
+  return stand_off(bounds, azimuth_rad, elevation_rad,
+                   fitting_distance(bounds, 0, elevation_rad, Camera{}.fov_y_rad, aspect, kSides));
 }
 
 }  // namespace usuzumi::firmware

@@ -32,8 +32,8 @@ struct Bounds {
 };
 Bounds bounds_of(const DrawingData& data);
 
-/// Looks at the middle of `bounds` from `azimuth_rad` around the y axis, from +z towards +x, and `elevation_rad` above the
-/// horizon (kept within 89 degrees), from where the box just fits the picture.
+/// Looks at the middle of `bounds` from `azimuth_rad` around the y axis, from +z towards +x, and `elevation_rad` above
+/// the horizon (kept within 89 degrees), from where the box just fits the picture.
 Camera view_of(const Bounds& bounds, double azimuth_rad, double elevation_rad, float aspect);
 
 /// The same, from the distance at which the box fits from every side, for a turn around it.

@@ -5,14 +5,19 @@
 namespace usuzumi::firmware {
 namespace {
 
-/// Taylor series on [-pi/4, pi/4]. The first term left out is below (pi/4)^15 / 15! = 2e-14 and (pi/4)^16 / 16! = 1e-15.
+/// Taylor series on [-pi/4, pi/4]. The first term left out is below (pi/4)^15 / 15! = 2e-14 and (pi/4)^16 / 16! =
+/// 1e-15.
 double sin_series(double x) {
   const double s = x * x;
-  return x * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800 + s / 6227020800.0))))));
+  return x *
+         (1 + s * (-1.0 / 6 + s * (1.0 / 120 +
+                                   s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800 + s / 6227020800.0))))));
 }
 double cos_series(double x) {
   const double s = x * x;
-  return 1 + s * (-0.5 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800 + s * (1.0 / 479001600 - s / 87178291200.0))))));
+  return 1 + s * (-0.5 + s * (1.0 / 24 +
+                              s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800 +
+                                                                        s * (1.0 / 479001600 - s / 87178291200.0))))));
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, AttributeShares 
   }
   if (colours != nullptr && colours[to] != colours[from]) {
     const Rgba8 a = colours[to], b = colours[from];
-    colours[to] = rgba8(mix_channel(a.r(), b.r(), shares.colour), mix_channel(a.g(), b.g(), shares.colour), mix_channel(a.b(), b.b(), shares.colour),
-                        mix_channel(a.a(), b.a(), shares.colour));
+    colours[to] = rgba8(mix_channel(a.r(), b.r(), shares.colour), mix_channel(a.g(), b.g(), shares.colour),
+                        mix_channel(a.b(), b.b(), shares.colour), mix_channel(a.a(), b.a(), shares.colour));
   }
 }
 

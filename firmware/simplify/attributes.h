@@ -16,8 +16,9 @@ struct AttributeShares {
   AttributeShares reversed() const { return {1.0f - colour, 1.0f - normal}; }
 };
 
-/// Where the new vertex lies `t` of the way from one end to the other. The weights are those of the ends' quadrics, which
-/// grow with the area around: a bevel's normal would otherwise be drawn as a gradient over the wide flat face beside it.
+/// Where the new vertex lies `t` of the way from one end to the other. The weights are those of the ends' quadrics,
+/// which grow with the area around: a bevel's normal would otherwise be drawn as a gradient over the wide flat face
+/// beside it.
 AttributeShares shares_at(float t, float weight_of_first, float weight_of_second);
 
 struct WedgeAttributes {

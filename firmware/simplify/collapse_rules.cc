@@ -15,12 +15,12 @@ constexpr std::uint32_t kLastEpoch = kEpochMask >> kEpochShift;
 constexpr std::uint32_t count_a(std::uint32_t mark) { return mark & kCountMask; }
 constexpr std::uint32_t count_b(std::uint32_t mark) { return (mark >> 4) & kCountMask; }
 
-// A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by 90 in all: no face ever looks
-// to the side that was its back (a face without area had none), to the tenth of a degree of a packed normal.
+// A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by 90 in all: no face ever
+// looks to the side that was its back (a face without area had none), to the tenth of a degree of a packed normal.
 constexpr float kLeastCosineSquared = 0.2f * 0.2f;
-// Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is less
-// than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of 48
-// sides) are made of slivers, and every collapse there changes some of them a little. Arbitrary.
+// Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is
+// less than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of
+// 48 sides) are made of slivers, and every collapse there changes some of them a little. Arbitrary.
 constexpr float kSliverSquared = 1e-4f;
 constexpr float kSliverWorseSquared = 0.25f;
 
@@ -64,9 +64,9 @@ bool CollapseRules::keeps_topology(Neighbourhood& n) {
   return keeps_any_topology(n);
 }
 
-// Both ends have only edges of two faces that run opposite ways: then every neighbour comes after the end in exactly one
-// face, the edge has two apexes, and they must be the only common neighbours. An end of three faces is left to the general
-// rule, which also looks for faces that would fall onto each other.
+// Both ends have only edges of two faces that run opposite ways: then every neighbour comes after the end in exactly
+// one face, the edge has two apexes, and they must be the only common neighbours. An end of three faces is left to the
+// general rule, which also looks for faces that would fall onto each other.
 bool CollapseRules::keeps_regular_topology(Neighbourhood& n, bool& decided) {
   const Surface& s = surface_;
   Place* places = surface_.places;
@@ -229,11 +229,14 @@ bool CollapseRules::turns_a_face_at(std::uint32_t v, std::uint32_t other, Vec3 p
     const float along = dot(before, after);
     if (dot(unpack(s.facing(c)), after) < 0) return true;
     // A face that had no area has no side to be turned to.
-    if (squared_before > 0 && !(along > 0 && along * along > kLeastCosineSquared * squared_before * squared_after)) return true;
+    if (squared_before > 0 && !(along > 0 && along * along > kLeastCosineSquared * squared_before * squared_after))
+      return true;
     const float side_after = longest_side_squared(u1, v1);
     if (squared_after < kSliverSquared * side_after * side_after) {
       const float side_before = longest_side_squared(u0, v0);
-      if (squared_after * (side_before * side_before) < kSliverWorseSquared * squared_before * (side_after * side_after)) return true;
+      if (squared_after * (side_before * side_before) <
+          kSliverWorseSquared * squared_before * (side_after * side_after))
+        return true;
     }
   }
   return false;

@@ -23,7 +23,7 @@ struct Neighbourhood {
   std::uint32_t apexes[kMostFacesOnEdge];
   bool touches_refused = false;           // an end or a neighbour carries kTouchesRefused
   Vec3 area_normal;                       // sum over the faces at either end of twice their area vectors
-  float swept = 0;                        // `area_normal` . x == `swept` where moving both ends to a + x keeps the volume
+  float swept = 0;  // `area_normal` . x == `swept` where moving both ends to a + x keeps the volume
 };
 
 /// Faces that stay, by coordinate, so that a compiler can take several at a time.
@@ -51,13 +51,12 @@ class CollapseRules {
  public:
   explicit CollapseRules(Surface& surface) : surface_(surface) {}
 
-  /// Looks around the edge; false when collapsing it would pinch, fold or close the surface, or would leave an edge with
-  /// more faces than two that no edge there had before.
+  /// Looks around the edge; false when collapsing it would pinch, fold or close the surface, or would leave an edge
+  /// with more faces than two that no edge there had before.
   bool keeps_topology(Neighbourhood& n);
 
-  /// True when moving both ends to `position` turns a remaining face by more than the limit, or away from the side it looked
-  /// to in the model, or makes it a sliver. `n` is
-  /// of the last call of keeps_topology, and that returned true.
+  /// True when moving both ends to `position` turns a remaining face by more than the limit, or away from the side it
+  /// looked to in the model, or makes it a sliver. `n` is of the last call of keeps_topology, and that returned true.
   bool turns_a_face(const Neighbourhood& n, Vec3 position) const;
 
  private:

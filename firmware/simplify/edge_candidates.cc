@@ -17,8 +17,8 @@ void EdgeCandidates::halve() {
   count_ = kept;
 }
 
-// Digit by digit from the highest, without moving anything: the first digits are the exponents of costs, and mostly one or
-// two more find the key.
+// Digit by digit from the highest, without moving anything: the first digits are the exponents of costs, and mostly one
+// or two more find the key.
 EdgeKey EdgeCandidates::key_of_rank(std::size_t rank) const {
   if (rank >= count_) return horizon_;
   constexpr int kMostDigitBits = 10;

@@ -1,8 +1,9 @@
 // The cheapest edges of the mesh, in the order of their faces, from which batches for the queue are taken.
 //
-// Edges far apart do not know of each other: collapsing all that cost less than some limit gives nearly the same surface
-// in whatever order regions come. So the edges below a limit are taken a batch of neighbours at a time, whose part of
-// the mesh stays in the near caches, and only within a batch by cost. What is left of a pass returns to its place.
+// Edges far apart do not know of each other: collapsing all that cost less than some limit gives nearly the same
+// surface in whatever order regions come. So the edges below a limit are taken a batch of neighbours at a time, whose
+// part of the mesh stays in the near caches, and only within a batch by cost. What is left of a pass returns to its
+// place.
 #pragma once
 
 #include <cstddef>

@@ -77,7 +77,8 @@ struct Merge {
         found = half_edge;
         continue;
       }
-      // Two: a refused one goes; of two others either, for what has no entry among the candidates is found by a later fill.
+      // Two: a refused one goes; of two others either, for what has no entry among the candidates is found by a later
+      // fill.
       std::uint32_t& first_flags = surface.links[found];
       std::uint32_t& drop = (first_flags & kRefused) != 0 ? first_flags : flags;
       drop &= ~(kRepresentative | kRefused);

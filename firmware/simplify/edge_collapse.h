@@ -17,8 +17,8 @@ struct CollapsedEdge {
 };
 
 /// Merges the ends of `n`'s edge, removes its faces, and joins each pair of edges that falls together under one
-/// representative. Positions and quadrics are the caller's. `shares` says how much of b's attributes the new vertex gets.
-/// `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
+/// representative. Positions and quadrics are the caller's. `shares` says how much of b's attributes the new vertex
+/// gets. `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
 CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
                             const Neighbourhood& n, AttributeShares shares);
 

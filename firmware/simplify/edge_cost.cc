@@ -8,12 +8,14 @@ namespace usuzumi::firmware {
 namespace {
 
 // A minimum further from the edge's middle than this many edge lengths (squared) is not believed: there the quadric is
-// nearly flat, and the planes it sums are not those the vertex would move among. Arbitrary; the turning test would refuse
-// most such places anyway.
+// nearly flat, and the planes it sums are not those the vertex would move among. Arbitrary; the turning test would
+// refuse most such places anyway.
 constexpr float kFarthestMinimumSquared = 4.0f;
 
 QuadricOf<float> lanes_of(const Quadric& q) { return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c}; }
-Quadric quadric_of(const QuadricOf<float>& q) { return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c}; }
+Quadric quadric_of(const QuadricOf<float>& q) {
+  return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c};
+}
 
 // 32-bit NEON takes denormal numbers for zero; the scalar unit beside it does not.
 #if defined(__ARM_NEON) && !defined(__aarch64__)
@@ -89,7 +91,8 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
 
 Vec3 refined_offset(const EdgeCost& cost) {
   if (!cost.has_minimum) return cost.offset;
-  const Vec3Of<float> refined = solve(lanes_of(cost.quadric), cost.system, {cost.offset.x, cost.offset.y, cost.offset.z});
+  const Vec3Of<float> refined =
+      solve(lanes_of(cost.quadric), cost.system, {cost.offset.x, cost.offset.y, cost.offset.z});
   return {refined.x, refined.y, refined.z};
 }
 
@@ -103,7 +106,8 @@ void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement
       const Quadric *qa[4], *qb[4];
       Vec3 sides[4];
       for (std::size_t i = 0; i < 4; ++i) {
-        const std::uint32_t a = surface.vertex_at(edges[first + i]), b = surface.vertex_at(next_in_face(edges[first + i]));
+        const std::uint32_t a = surface.vertex_at(edges[first + i]),
+                            b = surface.vertex_at(next_in_face(edges[first + i]));
         qa[i] = &surface.vertices[a].quadric;
         qb[i] = &surface.vertices[b].quadric;
         sides[i] = surface.position(b) - surface.position(a);

@@ -26,12 +26,12 @@ inline float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement);
 
 /// Solving once more, with the pull towards the first solution, takes the pull out again where the quadric does have a
-/// minimum (iterated Tikhonov regularisation): a cube's corners stay. The cost is that of the first solution, which is a
-/// little higher; most edges are costed more often than collapsed, and never get here.
+/// minimum (iterated Tikhonov regularisation): a cube's corners stay. The cost is that of the first solution, which is
+/// a little higher; most edges are costed more often than collapsed, and never get here.
 Vec3 refined_offset(const EdgeCost& cost);
 
-/// The same costs, bit for bit, of many half-edges' edges. An edge that nothing has changed therefore has the key it was
-/// found with when it comes to the front; that every fill gets something done rests on it.
+/// The same costs, bit for bit, of many half-edges' edges. An edge that nothing has changed therefore has the key it
+/// was found with when it comes to the front; that every fill gets something done rests on it.
 void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement placement, float* costs);
 
 }  // namespace usuzumi::firmware

@@ -6,8 +6,8 @@
 
 namespace usuzumi::firmware {
 
-/// Cost in bits 63-32 (a non-negative single's bits order as the number does), edge number in bits 31-0: ties are broken
-/// by the edge's number.
+/// Cost in bits 63-32 (a non-negative single's bits order as the number does), edge number in bits 31-0: ties are
+/// broken by the edge's number.
 using EdgeKey = std::uint64_t;
 inline EdgeKey edge_key(float cost, std::uint32_t edge) {
   return static_cast<EdgeKey>(std::bit_cast<std::uint32_t>(cost)) << 32 | edge;

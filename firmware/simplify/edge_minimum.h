@@ -27,8 +27,8 @@ struct QuadricOf {
 };
 
 // In a flat or straight neighbourhood the quadric is least along a whole plane or line, and rounding would choose the
-// place. A faint pull towards the edge's middle chooses instead; its strength relative to the quadric's weight. Chosen by
-// measuring.
+// place. A faint pull towards the edge's middle chooses instead; its strength relative to the quadric's weight. Chosen
+// by measuring.
 inline constexpr float kPull = 3e-4f;
 
 /// A + pull I = L D L' (A is positive semidefinite: no pivoting needed).
@@ -58,7 +58,8 @@ inline Vec3Of<F> multiply(const QuadricOf<F>& q, const Vec3Of<F>& x) {
 
 /// `b`'s owner lies at `edge` from `a`'s.
 template <class F>
-[[gnu::always_inline]] inline void sum_quadrics(const QuadricOf<F>& a, const QuadricOf<F>& b, const Vec3Of<F>& edge, QuadricOf<F>& sum) {
+[[gnu::always_inline]] inline void sum_quadrics(const QuadricOf<F>& a, const QuadricOf<F>& b, const Vec3Of<F>& edge,
+                                                QuadricOf<F>& sum) {
   const Vec3Of<F> t = multiply(b, edge);
   const Vec3Of<F> moved = {b.b.x - t.x, b.b.y - t.y, b.b.z - t.z};
   const Vec3Of<F> both = {b.b.x + moved.x, b.b.y + moved.y, b.b.z + moved.z};
@@ -89,7 +90,8 @@ template <class F>
 
 /// Where q(x) + pull |x - towards|^2 is least.
 template <class F>
-[[gnu::always_inline]] inline Vec3Of<F> solve(const QuadricOf<F>& q, const PulledSystem<F>& s, const Vec3Of<F>& towards) {
+[[gnu::always_inline]] inline Vec3Of<F> solve(const QuadricOf<F>& q, const PulledSystem<F>& s,
+                                              const Vec3Of<F>& towards) {
   const F y0 = s.pull * towards.x - q.b.x;
   const F y1 = (s.pull * towards.y - q.b.y) - s.l10 * y0;
   const F y2 = ((s.pull * towards.z - q.b.z) - s.l20 * y0) - s.l21 * y1;
@@ -107,7 +109,8 @@ template <class F>
   const Vec3Of<F> middle = {edge.x * 0.5f, edge.y * 0.5f, edge.z * 0.5f};
   const Vec3Of<F> x = solve(q, r.system, middle);
   const Vec3Of<F> back = {middle.x - x.x, middle.y - x.y, middle.z - x.z};
-  const Vec3Of<F> slope = {q.b.x + r.system.pull * back.x, q.b.y + r.system.pull * back.y, q.b.z + r.system.pull * back.z};
+  const Vec3Of<F> slope = {q.b.x + r.system.pull * back.x, q.b.y + r.system.pull * back.y,
+                           q.b.z + r.system.pull * back.z};
   r.offset = x;
   r.cost = q.c + dot(x, slope);
   r.far_squared = dot(back, back);

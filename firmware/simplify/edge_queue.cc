@@ -8,8 +8,8 @@ namespace {
 // Four children share a cache line and halve the depth of a binary heap.
 constexpr std::size_t kArity = 4;
 
-// Sorting: one pass into buckets of equal key range, in place (American flag sort, McIlroy, Bostic & McIlroy 1993), then
-// each small bucket by comparison. Costs' bits grow with their logarithm, so the buckets fill about evenly.
+// Sorting: one pass into buckets of equal key range, in place (American flag sort, McIlroy, Bostic & McIlroy 1993),
+// then each small bucket by comparison. Costs' bits grow with their logarithm, so the buckets fill about evenly.
 constexpr std::size_t kBuckets = 512;
 
 void sort_keys(std::span<EdgeKey> keys) {

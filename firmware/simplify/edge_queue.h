@@ -1,7 +1,7 @@
 // Some edges in order of collapse cost, in a fixed piece of memory.
 //
-// A batch is sorted once and read from the front; an edge that comes back with a new cost goes to a small heap that grows
-// into the room the reader has left.
+// A batch is sorted once and read from the front; an edge that comes back with a new cost goes to a small heap that
+// grows into the room the reader has left.
 #pragma once
 
 #include <cstddef>

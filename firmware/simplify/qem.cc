@@ -1,11 +1,12 @@
 // Quadric error edge collapse: Garland & Heckbert 1997, section 4; patent JP2015-22462A steps S801-S808.
 //
 // Where we depart from the paper: quadrics are relative to their vertices (quadric.h); pairs are edges only; an edge's
-// cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. Costs mostly
-// rise as quadrics are summed, and then that is the same order; an edge whose cost has fallen (by midpoint placement, by
-// the pull towards the edge's middle or where the minimum could not be used) is taken later than it might be. And edges
-// are not ordered over the whole mesh but region by region up to a cost that rises from pass to pass (edge_candidates.h):
-// memory is then walked along, not jumped about in, and the time per face hardly grows with the mesh.
+// cost is brought up to date when the edge comes to the front of the queue, not at every collapse beside it. Costs
+// mostly rise as quadrics are summed, and then that is the same order; an edge whose cost has fallen (by midpoint
+// placement, by the pull towards the edge's middle or where the minimum could not be used) is taken later than it might
+// be. And edges are not ordered over the whole mesh but region by region up to a cost that rises from pass to pass
+// (edge_candidates.h): memory is then walked along, not jumped about in, and the time per face hardly grows with the
+// mesh.
 #include <cmath>
 
 #include "firmware/simplify/attributes.h"
@@ -29,10 +30,11 @@ constexpr std::uint32_t kEdgesAtOnce = 256;  // costed in one go when candidates
 // of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
 constexpr float kWorkingExtent = 4096;
 
-// Planes that touch a curved surface meet outside it, but not as far outside as evens out the chords of the faces between:
-// simplified to the quadrics' minima, a ball shrinks. Moving along the mean normal until the collapse keeps the volume
-// (Lindstrom & Turk, "Fast and Memory Efficient Polygonal Simplification", 1998) takes that bias out and lowers the
-// root-mean-square error by about a fifth. No further than this many times the quadric's own error. Chosen by measuring.
+// Planes that touch a curved surface meet outside it, but not as far outside as evens out the chords of the faces
+// between: simplified to the quadrics' minima, a ball shrinks. Moving along the mean normal until the collapse keeps
+// the volume (Lindstrom & Turk, "Fast and Memory Efficient Polygonal Simplification", 1998) takes that bias out and
+// lowers the root-mean-square error by about a fifth. No further than this many times the quadric's own error. Chosen
+// by measuring.
 constexpr float kMostShift = 2;
 
 Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
@@ -160,7 +162,8 @@ void QemSimplifier::collapse_to_target() {
       return;
     }
     // A collapse removes two faces at most (more only where the surface is no manifold), so this many candidates cannot
-    // reach the target before every region has had its turn; the last batch is then one of the whole mesh, by cost alone.
+    // reach the target before every region has had its turn; the last batch is then one of the whole mesh, by cost
+    // alone.
     const std::size_t most = (faces_ - options_.target_faces) / 2;
     run_pass(most > batch_size_ ? most : batch_size_);
   }
@@ -182,8 +185,8 @@ void QemSimplifier::run_pass(std::size_t rank) {
   }
 }
 
-// Asks for the batch's part of the mesh in the order it lies in memory; the batch then goes about in it by cost. Inlined
-// by force: GCC takes a function that only prefetches for one without effect, and drops the call.
+// Asks for the batch's part of the mesh in the order it lies in memory; the batch then goes about in it by cost.
+// Inlined by force: GCC takes a function that only prefetches for one without effect, and drops the call.
 [[gnu::always_inline]] inline void QemSimplifier::fetch_region(std::span<const EdgeKey> batch) {
   std::uint32_t first = surface_.face_count, last = 0;
   for (const EdgeKey key : batch) {
@@ -285,7 +288,8 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   if (!rules_.keeps_topology(n)) return false;
   const Vec3 a = surface_.position(n.a);
   Vec3 position = a + cost.offset;
-  const Vec3 volume_kept = position + (options_.placement == Placement::kOptimal ? shift_to_keep_volume(n, cost) : Vec3{});
+  const Vec3 volume_kept =
+      position + (options_.placement == Placement::kOptimal ? shift_to_keep_volume(n, cost) : Vec3{});
   if (!(volume_kept == position) && !rules_.turns_a_face(n, volume_kept)) position = volume_kept;
   else if (rules_.turns_a_face(n, position)) return false;
 
@@ -320,8 +324,8 @@ void QemSimplifier::refuse(Corner edge) {
   surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
 }
 
-// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices. The
-// edges are taken up at once: by the next fill dearer ones would have gone, a cube's corners before its flat sides.
+// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
+// The edges are taken up at once: by the next fill dearer ones would have gone, a cube's corners before its flat sides.
 void QemSimplifier::allow_again_around(std::uint32_t v) {
   allow_again_at(v);
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
@@ -376,7 +380,8 @@ void QemSimplifier::write_result() {
 
 Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch) {
   if (mesh.face_count > kMostFaces)
-    return Status{StatusCode::kUnsupported, "a mesh has more faces than simplify_qem can number; split it", mesh.face_count};
+    return Status{StatusCode::kUnsupported, "a mesh has more faces than simplify_qem can number; split it",
+                  mesh.face_count};
   const ScratchScope scope(scratch);
   QemSimplifier simplifier(mesh, options);
   return simplifier.run(scratch);

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
 
-// Counts from ROM may ask for more bytes than a 32-bit device can address: sizes are 64 bits wide until they are compared.
+// Counts from ROM may ask for more bytes than a 32-bit device can address: sizes are 64 bits wide until they are
+// compared.
 constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 // Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges that
@@ -22,8 +23,8 @@ constexpr std::uint64_t candidate_slots(std::uint64_t face_count) {
   return some > least ? some : least;
 }
 
-// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 58 bytes each with
-// their vertices) is to stay in the nearer caches. By measuring.
+// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 58 bytes each
+// with their vertices) is to stay in the nearer caches. By measuring.
 constexpr std::uint64_t kMostInBatch = 2048;
 constexpr std::uint64_t batch_size(std::uint64_t face_count) {
   const std::uint64_t slots = candidate_slots(face_count);
@@ -57,7 +58,8 @@ bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t f
   scratch.places = rest.allocate<Place>(vertex_count, kAlignment);
   scratch.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
   const std::size_t mark = rest.used();
-  scratch.weld_table = rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
+  scratch.weld_table =
+      rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
   rest.rewind(mark);
   scratch.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
   scratch.candidates = rest.allocate<EdgeKey>(static_cast<std::size_t>(candidate_slots(face_count)), kAlignment);

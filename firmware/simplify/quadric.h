@@ -2,9 +2,10 @@
 // in single precision.
 //
 // A quadric is the weighted sum of squared distances to a set of planes, Q(x) = x'Ax + 2 b'x + c. Here x is RELATIVE TO
-// THE VERTEX that owns the quadric, not to the model's origin. Far from the origin b and c would be differences of large
-// numbers; near their own vertex they are the small numbers themselves, so that singles are enough where an absolute
-// frame needs doubles. What is left is the rounding of A: distances below about 2.5e-4 of an edge's length are noise.
+// THE VERTEX that owns the quadric, not to the model's origin. Far from the origin b and c would be differences of
+// large numbers; near their own vertex they are the small numbers themselves, so that singles are enough where an
+// absolute frame needs doubles. What is left is the rounding of A: distances below about 2.5e-4 of an edge's length are
+// noise.
 #pragma once
 
 #include "hal/vec.h"
@@ -29,7 +30,8 @@ inline float weight_of(const Quadric& q) { return q.xx + q.yy + q.zz; }
 /// Q(x). Rounding can take it a little below zero.
 inline float evaluate(const Quadric& q, Vec3 x) { return dot(x, multiply(q, x) + q.b * 2.0f) + q.c; }
 
-/// Adds a plane through the owner: `weighted_normal` n' = n * s and `scale` = weight / s^2, so that A gains weight * n n'.
+/// Adds a plane through the owner: `weighted_normal` n' = n * s and `scale` = weight / s^2, so that A gains weight * n
+/// n'.
 inline void add_plane_through_owner(Quadric& q, Vec3 weighted_normal, float scale) {
   const Vec3 s = weighted_normal * scale;
   q.xx += s.x * weighted_normal.x;

@@ -22,8 +22,8 @@ struct WorkingMesh {
 };
 
 enum class Placement : std::uint8_t {
-  kOptimal,   // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most); best
-              // of both ends and the middle where the quadric is ill-conditioned
+  kOptimal,  // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most);
+             // best of both ends and the middle where the quadric is ill-conditioned
   kMidpoint,  // the middle of the two ends (JP2015-22462A claim 5)
 };
 
@@ -49,10 +49,10 @@ struct SimplifyOutcome {
   SimplifyWork work;
 };
 
-/// Quadric error edge collapse (Garland & Heckbert 1997) down to `options.target_faces`. On return the mesh's counts are
-/// the thinned ones and its spans' first elements hold the result, unreferenced vertices removed, original order kept.
-/// kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it was. `scratch`
-/// is left as it was found.
+/// Quadric error edge collapse (Garland & Heckbert 1997) down to `options.target_faces`. On return the mesh's counts
+/// are the thinned ones and its spans' first elements hold the result, unreferenced vertices removed, original order
+/// kept. kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it
+/// was. `scratch` is left as it was found.
 Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
 
 /// Bytes of scratch that simplify_qem needs for a mesh of these counts. May be more than the device can address.

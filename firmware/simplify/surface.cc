@@ -8,7 +8,8 @@ std::uint32_t link_corners(Surface& surface) {
   for (std::uint32_t face = surface.face_count; face-- > 0;) {
     const Corner corner = face * 4;
     surface.set_facing(corner, PackedNormal{0});
-    const std::uint32_t v[3] = {surface.vertex_at(corner), surface.vertex_at(corner + 1), surface.vertex_at(corner + 2)};
+    const std::uint32_t v[3] = {surface.vertex_at(corner), surface.vertex_at(corner + 1),
+                                surface.vertex_at(corner + 2)};
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
       surface.indices[corner_index(corner)] = kDeadFace;
       for (Corner c = corner; c < corner + 3; ++c) surface.links[c] = kNoCorner;

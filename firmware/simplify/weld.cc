@@ -16,7 +16,9 @@ std::uint32_t mixed(std::uint32_t hash, std::uint32_t bits) {
   return hash ^ (hash >> 15);
 }
 
-std::uint32_t hash_position(Vec3 p) { return mixed(mixed(mixed(0x2545F491u, bits_of(p.x)), bits_of(p.y)), bits_of(p.z)); }
+std::uint32_t hash_position(Vec3 p) {
+  return mixed(mixed(mixed(0x2545F491u, bits_of(p.x)), bits_of(p.y)), bits_of(p.z));
+}
 
 // Finds every entry's first equal. `hash` and `equal` see wedge numbers.
 template <class Hash, class Equal>

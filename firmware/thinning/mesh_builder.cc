@@ -222,7 +222,8 @@ void add_collapsed(const MeshView& mesh, const WorkingMesh& work, RamCopy& copy)
   out.index_count = 3 * work.face_count;
   out.faces = work.face_count;
   const auto append_left = [&](auto stream) {
-    return block.append(std::span<const typename decltype(stream)::element_type>(stream.first(stream.empty() ? 0 : work.vertex_count)));
+    return block.append(
+        std::span<const typename decltype(stream)::element_type>(stream.first(stream.empty() ? 0 : work.vertex_count)));
   };
   append_left(work.positions);
   out.normal_offset = append_left(work.normals);
@@ -230,7 +231,8 @@ void add_collapsed(const MeshView& mesh, const WorkingMesh& work, RamCopy& copy)
   const auto wide = work.indices.first(out.index_count);
   const std::uint32_t size = narrow_indices(wide, out.vertex_count);
   out.index_format = size == 2 ? command::IndexFormat::kU16 : command::IndexFormat::kU32;
-  out.index_offset = block.append(std::span<const std::byte>(reinterpret_cast<const std::byte*>(wide.data()), std::size_t{out.index_count} * size));
+  out.index_offset = block.append(
+      std::span<const std::byte>(reinterpret_cast<const std::byte*>(wide.data()), std::size_t{out.index_count} * size));
   if (out.index_offset == kAbsent) out.index_offset = 0;  // no faces: the empty stream may stand anywhere
   copy.add(mesh.number, out, block.bytes());
 }

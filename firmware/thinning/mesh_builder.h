@@ -25,8 +25,8 @@ struct BuildReport {
   float max_error = 0;     // model units, collapsed meshes only
 };
 
-/// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`. `faces` is
-/// the mesh's proper_face_count(), here and below.
+/// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`. `faces`
+/// is the mesh's proper_face_count(), here and below.
 BuildReport build_mesh(const MeshView& mesh, std::uint32_t faces, const Decision& decision, RamCopy& copy,
                        Clock& clock);
 

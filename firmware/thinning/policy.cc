@@ -48,7 +48,8 @@ Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
   const auto keep = [](Reason reason) { return Decision{Action::kKeep, reason, 0, Placement::kOptimal}; };
   // Every mesh of a level takes its turn in that level's draw, so that one mesh's area does not shift the others' luck.
   const bool delete_taken = mesh.level == Level::kDelete && policy_takes(settings_.delete_policy, mesh, delete_draw_);
-  const bool collapse_taken = mesh.level == Level::kCollapse && policy_takes(settings_.collapse_policy, mesh, collapse_draw_);
+  const bool collapse_taken =
+      mesh.level == Level::kCollapse && policy_takes(settings_.collapse_policy, mesh, collapse_draw_);
   if (mesh.level == Level::kUnset) return keep(Reason::kLevelUnset);
   if (mesh.level == Level::kKeep) return keep(Reason::kAuthorLevel);
   if (!settings_.enabled) return keep(Reason::kThinningOff);
@@ -64,7 +65,8 @@ Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
       return {Action::kCollapse, Reason::kAuthorLevel, target_faces(mesh, faces), settings_.placement};
     default:  // point and line
       if (above_area(nullptr, mesh)) return keep(Reason::kAboveArea);
-      return {mesh.level == Level::kPoint ? Action::kPoint : Action::kLine, Reason::kAuthorLevel, 0, Placement::kOptimal};
+      return {mesh.level == Level::kPoint ? Action::kPoint : Action::kLine, Reason::kAuthorLevel, 0,
+              Placement::kOptimal};
   }
 }
 
@@ -89,7 +91,9 @@ bool Decider::above_area(const Policy* policy, const MeshView& mesh) {
 
 std::uint32_t Decider::target_faces(const MeshView& mesh, std::uint64_t faces) const {
   if (settings_.quota.kind == format::QuotaKind::kFaces)
-    return totals_.collapse_faces == 0 ? 0 : static_cast<std::uint32_t>(settings_.quota.value * faces / totals_.collapse_faces);
+    return totals_.collapse_faces == 0
+               ? 0
+               : static_cast<std::uint32_t>(settings_.quota.value * faces / totals_.collapse_faces);
   const bool from_settings = settings_.quota.kind != format::QuotaKind::kNone;
   const auto kind = from_settings ? settings_.quota.kind : mesh.quota_kind;
   const std::uint64_t value = from_settings ? settings_.quota.value : mesh.quota;

@@ -28,15 +28,16 @@ struct Policy {
   std::uint32_t seed = 1;                 // kRandom
 };
 
-/// A face quota from outside the drawing data. kFaces is one budget over all level-3 meshes, shared by their face counts.
-/// A mesh that a policy passes over keeps its share and is drawn whole, so that the budget is exceeded by it: another
-/// mesh's quota does not change with what the policy does to this one, and nothing else is thinned anew for it.
+/// A face quota from outside the drawing data. kFaces is one budget over all level-3 meshes, shared by their face
+/// counts. A mesh that a policy passes over keeps its share and is drawn whole, so that the budget is exceeded by it:
+/// another mesh's quota does not change with what the policy does to this one, and nothing else is thinned anew for it.
 struct Quota {
   format::QuotaKind kind = format::QuotaKind::kNone;
   std::uint32_t value = 0;
 };
 
-/// A level-3 mesh without any quota keeps half of its faces. The number is arbitrary; authors are meant to give their own.
+/// A level-3 mesh without any quota keeps half of its faces. The number is arbitrary; authors are meant to give their
+/// own.
 inline constexpr std::uint32_t kDefaultQuotaMillionths = 500'000;
 
 struct ThinningSettings {
@@ -89,7 +90,8 @@ class Decider {
   std::uint64_t faces_measured() const { return faces_measured_; }
 
  private:
-  /// Selection sampling (Knuth, The Art of Computer Programming vol. 2, 3.4.2, algorithm S): exactly `wanted` of `left`.
+  /// Selection sampling (Knuth, The Art of Computer Programming vol. 2, 3.4.2, algorithm S): exactly `wanted` of
+  /// `left`.
   struct Draw {
     std::uint32_t wanted = 0, left = 0;
     std::uint64_t state = 0;

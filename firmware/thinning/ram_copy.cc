@@ -97,9 +97,12 @@ bool RamCopy::sound() const {
     if (!slot.present || slot.offset < end || slot.bytes > used_ || slot.offset > used_ - slot.bytes) return false;
     end = std::size_t{slot.offset} + slot.bytes;
     ++count;
-    if (m.vertex_count == 0 || !stream_inside(0, std::uint64_t{m.vertex_count} * sizeof(Vec3), slot.bytes)) return false;
-    if (m.normal_offset != 0xFFFFFFFF && !stream_inside(m.normal_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes)) return false;
-    if (m.colour_offset != 0xFFFFFFFF && !stream_inside(m.colour_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes)) return false;
+    if (m.vertex_count == 0 || !stream_inside(0, std::uint64_t{m.vertex_count} * sizeof(Vec3), slot.bytes))
+      return false;
+    if (m.normal_offset != 0xFFFFFFFF && !stream_inside(m.normal_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes))
+      return false;
+    if (m.colour_offset != 0xFFFFFFFF && !stream_inside(m.colour_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes))
+      return false;
     if (m.index_format == command::IndexFormat::kNone) continue;
     const std::uint32_t size = m.index_format == command::IndexFormat::kU16 ? 2 : 4;
     if (!stream_inside(m.index_offset, std::uint64_t{m.index_count} * size, slot.bytes)) return false;

@@ -37,7 +37,8 @@ void clip_by_plane(Polygon& polygon, int plane) {
     const Vec4& b = polygon.corner[(i + 1) % polygon.count];
     const float da = plane_distance(a, plane), db = plane_distance(b, plane);
     if (da >= 0) inside.corner[inside.count++] = a;
-    if ((da >= 0) != (db >= 0) && inside.count < kMaxCorners) inside.corner[inside.count++] = between(a, b, da / (da - db));
+    if ((da >= 0) != (db >= 0) && inside.count < kMaxCorners)
+      inside.corner[inside.count++] = between(a, b, da / (da - db));
     if (inside.count == kMaxCorners) break;
   }
   polygon = inside;

@@ -16,7 +16,8 @@ Decision narrowed(Decision decision, std::uint32_t quota_halvings) {
 }
 
 unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
-constexpr unsigned kSizeClasses = 40;  // working bytes of one mesh stay below 2^39: 2^30 bytes of ROM, under 2^8 times that
+constexpr unsigned kSizeClasses =
+    40;  // working bytes of one mesh stay below 2^39: 2^30 bytes of ROM, under 2^8 times that
 
 }  // namespace
 
@@ -91,7 +92,8 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     MeshState& state = states_[n];
     const bool squeezed = quota_halvings_ > 0 && state.decision.action == Action::kCollapse;
-    const bool short_of_room = state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned;
+    const bool short_of_room =
+        state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned;
     if (squeezed || (state.known && short_of_room)) state.wanted = true;
   }
   return true;
@@ -162,14 +164,16 @@ bool Thinning::dropped_any(Priority up_to) const {
 bool Thinning::can_halve_quotas() const {
   if (quota_halvings_ == kMaxQuotaHalvings) return false;
   for (const MeshState& state : states_)
-    if (state.decision.action == Action::kCollapse && narrowed(state.decision, quota_halvings_).target_faces > 0) return true;
+    if (state.decision.action == Action::kCollapse && narrowed(state.decision, quota_halvings_).target_faces > 0)
+      return true;
   return false;
 }
 
 /// Everything below the meshes that must be there is built again, with the quotas as they are now.
 void Thinning::want_collapses() {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
-    if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped) states_[n].wanted = true;
+    if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped)
+      states_[n].wanted = true;
 }
 
 void Thinning::count_decisions_and_builds(ThinningReport& report) const {

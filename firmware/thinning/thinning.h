@@ -59,10 +59,10 @@ class Thinning {
   Status begin(const DrawingData& data, Arena& ram);
 
   /// Decides every mesh anew and rebuilds those whose copy would differ. On return the copy is complete and sound.
-  /// When memory runs short, level-2 meshes that are to be drawn are left out first: their authors allow their loss, but
-  /// nobody fewer faces than a quota. Then the quotas of level 3 are halved, up to four times; then level-3 meshes are
-  /// left out, then points and lines. kResourceExhausted, with the mesh's number: a level-1 mesh, a mesh without a level
-  /// or a telltale found no room; the copy then holds what fitted, and must not be taken for the picture.
+  /// When memory runs short, level-2 meshes that are to be drawn are left out first: their authors allow their loss,
+  /// but nobody fewer faces than a quota. Then the quotas of level 3 are halved, up to four times; then level-3 meshes
+  /// are left out, then points and lines. kResourceExhausted, with the mesh's number: a level-1 mesh, a mesh without a
+  /// level or a telltale found no room; the copy then holds what fitted, and must not be taken for the picture.
   Status update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report);
 
   const RamCopy& copy() const { return copy_; }

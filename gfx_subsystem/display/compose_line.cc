@@ -12,8 +12,8 @@ using display_registers::LayerFormat;
 
 constexpr std::uint32_t kRgbMask = 0x00FFFFFF, kOpaque = 0xFF000000;
 
-// Rows are widened piece by piece, so that what is between widening and blending stays in the first-level cache, in loops of
-// constant length, which every compiler turns into SIMD code.
+// Rows are widened piece by piece, so that what is between widening and blending stays in the first-level cache, in
+// loops of constant length, which every compiler turns into SIMD code.
 constexpr std::size_t kPiece = 64;
 using Piece = std::uint32_t[kPiece];
 
@@ -80,7 +80,8 @@ void lay_over(const LayerRow& row, std::uint32_t* line) {
 void compose_line(std::uint32_t background_rgb, std::span<const LayerRow> rows, std::span<std::uint32_t> line) {
   // What the last layer that hides everything hides need not be drawn.
   std::size_t bottom = rows.size();
-  while (bottom > 0 && !(is_opaque(rows[bottom - 1]) && rows[bottom - 1].x_begin == 0 && rows[bottom - 1].x_end == line.size()))
+  while (bottom > 0 &&
+         !(is_opaque(rows[bottom - 1]) && rows[bottom - 1].x_begin == 0 && rows[bottom - 1].x_end == line.size()))
     --bottom;
   if (bottom == 0)
     std::fill(line.begin(), line.end(), background_rgb & kRgbMask);

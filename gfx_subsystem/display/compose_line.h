@@ -1,4 +1,5 @@
-// One line of the picture out of background, layers and cursor: the pure function at the heart of the display controller.
+// One line of the picture out of background, layers and cursor: the pure function at the heart of the display
+// controller.
 #pragma once
 
 #include <cstddef>
@@ -32,9 +33,9 @@ constexpr std::uint32_t widen_rgb565(std::uint32_t p) {
   return (r << 3 | r >> 2) << 16 | (g << 2 | g >> 4) << 8 | (b << 3 | b >> 2);
 }
 
-/// Fills `line` (0x00RRGGBB each) with `background_rgb` and lays `rows` over it, back to front. Per layer and pixel: colour
-/// widened to 8 bits a channel; not shown when it equals an enabled key; alpha = own alpha (or 255) times global alpha / 255;
-/// channel = divide_by_255(source * alpha + below * (255 - alpha)).
+/// Fills `line` (0x00RRGGBB each) with `background_rgb` and lays `rows` over it, back to front. Per layer and pixel:
+/// colour widened to 8 bits a channel; not shown when it equals an enabled key; alpha = own alpha (or 255) times global
+/// alpha / 255; channel = divide_by_255(source * alpha + below * (255 - alpha)).
 void compose_line(std::uint32_t background_rgb, std::span<const LayerRow> rows, std::span<std::uint32_t> line);
 
 /// The bytes R, G, B of each pixel; `bytes` holds 3 * pixels.size().

@@ -15,7 +15,8 @@ DisplayController::DisplayController(BusMemory& memory, VideoSink& sink, const D
       fifo_{config.reference_hz, config.bus_bytes_per_second, config.fifo_bytes},
       registers_(kTable, log) {}
 
-// ----------------------------------------------------------------------------------------------------------------- time
+// -----------------------------------------------------------------------------------------------------------------
+// time
 
 /// The signal begins with the vertical sync.
 void DisplayController::start() {
@@ -65,7 +66,8 @@ void DisplayController::begin_vertical_blank() {
   raise(kIntVerticalBlank);
 }
 
-// -------------------------------------------------------------------------------------------------------------- picture
+// --------------------------------------------------------------------------------------------------------------
+// picture
 
 void DisplayController::send_picture_line() {
   std::array<LayerRow, FrameConfig::kCursor + 1> rows;
@@ -125,7 +127,8 @@ void DisplayController::send_blanking(bool vsync) {
   sink_.segment({.vsync = vsync, .pixel_count = geometry_.back_porch});
 }
 
-// ------------------------------------------------------------------------------------------------------------ signature
+// ------------------------------------------------------------------------------------------------------------
+// signature
 
 void DisplayController::sign_line() {
   const Window& w = frame_.window;
@@ -136,7 +139,8 @@ void DisplayController::sign_line() {
   const std::uint32_t end = frame_.picture_signature ? geometry_.width : w.x + w.width;
   pack_rgb(std::span(pixels_).subspan(begin, end - begin), rgb_.data());
   if (frame_.picture_signature) picture_crc_ = crc32(picture_crc_, std::span(rgb_).first(std::size_t{3} * end));
-  if (in_window) window_crc_ = crc32(window_crc_, std::span(rgb_).subspan(std::size_t{3} * (w.x - begin), std::size_t{3} * w.width));
+  if (in_window)
+    window_crc_ = crc32(window_crc_, std::span(rgb_).subspan(std::size_t{3} * (w.x - begin), std::size_t{3} * w.width));
 }
 
 void DisplayController::finish_signatures() {

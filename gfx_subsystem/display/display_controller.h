@@ -1,10 +1,11 @@
-// The display controller: registers (hal/registers/display.h) on one side, pixels and sync on the other, virtual time between.
+// The display controller: registers (hal/registers/display.h) on one side, pixels and sync on the other, virtual time
+// between.
 //
 // Time is counted in ticks of the reference clock. Lines are sent at the tick of their first pixel: what memory and
-// interrupts show then is what the line sees, so that a picture drawn into while it is being sent tears where the beam was.
-// Within a frame, lines 0 .. VDP are the picture. The vertical blank begins with line VDP + 1: at that tick, in this order,
-// the signatures are finished, FCNT rises, the shadowed registers are latched (unless locked) and INTST.VB is set. Latched
-// timing rules from the next line 0 on, everything else is only looked at in picture lines anyway.
+// interrupts show then is what the line sees, so that a picture drawn into while it is being sent tears where the beam
+// was. Within a frame, lines 0 .. VDP are the picture. The vertical blank begins with line VDP + 1: at that tick, in
+// this order, the signatures are finished, FCNT rises, the shadowed registers are latched (unless locked) and INTST.VB
+// is set. Latched timing rules from the next line 0 on, everything else is only looked at in picture lines anyway.
 #pragma once
 
 #include <array>

@@ -1,17 +1,19 @@
 // The FIFO between bus and pixels: when does a line run dry?
 //
-// Model. The bus delivers a constant `bus_bytes_per_second`. Fetching for a line starts when the last pixel of the picture
-// line before it has been sent and fills the FIFO to `fifo_bytes` at most. At each pixel clock the pixel takes its bytes (the
-// sum over the layers fetched there) and then the bus adds what it delivers in one clock. A pixel whose bytes are not there
-// is starved, and with it the rest of its line: the FIFO is flushed and begins anew with the next line.
+// Model. The bus delivers a constant `bus_bytes_per_second`. Fetching for a line starts when the last pixel of the
+// picture line before it has been sent and fills the FIFO to `fifo_bytes` at most. At each pixel clock the pixel takes
+// its bytes (the sum over the layers fetched there) and then the bus adds what it delivers in one clock. A pixel whose
+// bytes are not there is starved, and with it the rest of its line: the FIFO is flushed and begins anew with the next
+// line.
 //
-// Between two places where a layer begins or ends, demand d and supply s per pixel are constant, so that the fill q before
-// the k-th pixel is q0 + k (s - d), capped at the FIFO's size F:
+// Between two places where a layer begins or ends, demand d and supply s per pixel are constant, so that the fill q
+// before the k-th pixel is q0 + k (s - d), capped at the FIFO's size F:
 //   s >= d: q never falls, so that the first pixel decides: starved iff q0 < d;
-//   s <  d: q never meets the cap after the first pixel; pixel k is starved iff q0 - k (d - s) < d, the first such being
+//   s <  d: q never meets the cap after the first pixel; pixel k is starved iff q0 - k (d - s) < d, the first such
+//   being
 //           k = floor((q0 - d) / (d - s)) + 1, or 0 when q0 < d.
-// All amounts are held in bytes * ticks_per_second, so that nothing is rounded; below 2^63 for 20 bytes a pixel, lines of
-// 8192 pixels, and buses and clocks up to 100 G per second.
+// All amounts are held in bytes * ticks_per_second, so that nothing is rounded; below 2^63 for 20 bytes a pixel, lines
+// of 8192 pixels, and buses and clocks up to 100 G per second.
 #pragma once
 
 #include <algorithm>
@@ -33,14 +35,16 @@ struct FetchSpan {
   std::uint32_t bytes_per_pixel = 0;
 };
 
-/// The first starved pixel of a line, `width` when none is. `spans`: at most eight, inside the line. `ticks_per_pixel` 1..64;
-/// `blank_pixels`: pixel clocks between the picture line before and this one.
+/// The first starved pixel of a line, `width` when none is. `spans`: at most eight, inside the line.
+/// `ticks_per_pixel` 1..64; `blank_pixels`: pixel clocks between the picture line before and this one.
 constexpr std::uint32_t first_starved_pixel(std::span<const FetchSpan> spans, std::uint32_t width,
-                                            std::uint32_t ticks_per_pixel, std::uint64_t blank_pixels, const FifoModel& model) {
+                                            std::uint32_t ticks_per_pixel, std::uint64_t blank_pixels,
+                                            const FifoModel& model) {
   const std::uint64_t supply = model.bus_bytes_per_second * ticks_per_pixel;
   const std::uint64_t capacity = model.fifo_bytes * model.ticks_per_second;
   // A FIFO that fills in fewer clocks than the blank has is full, whatever the product would be.
-  std::uint64_t fill = supply > 0 && blank_pixels > capacity / supply ? capacity : std::min(capacity, supply * blank_pixels);
+  std::uint64_t fill =
+      supply > 0 && blank_pixels > capacity / supply ? capacity : std::min(capacity, supply * blank_pixels);
 
   for (std::uint32_t x = 0; x < width;) {
     std::uint32_t next = width;

@@ -1,4 +1,5 @@
-// Takes the shadowed registers over into what rules the next frame. What cannot be obeyed is left out and reported in CFGE.
+// Takes the shadowed registers over into what rules the next frame. What cannot be obeyed is left out and reported in
+// CFGE.
 #include "gfx_subsystem/display/display_controller.h"
 
 namespace usuzumi::gfx {
@@ -35,10 +36,12 @@ bool DisplayController::latch_timing() {
 void DisplayController::latch_layer(std::uint32_t layer, std::uint32_t enabled_layers) {
   const auto value = [&](std::uint32_t offset) { return registers_.value(layer_register(layer, offset)); };
   const std::uint32_t bank = LayerFlip::kBank.get(value(LayerFlip::kOffset));
-  registers_.set_value(layer_register(layer, LayerFlip::kOffset), LayerFlip::kBank.put(bank) | LayerFlip::kShown.put(bank));
+  registers_.set_value(layer_register(layer, LayerFlip::kOffset),
+                       LayerFlip::kBank.put(bank) | LayerFlip::kShown.put(bank));
 
   LayerConfig& c = frame_.layers[layer];
-  const std::uint32_t mode = value(LayerMode::kOffset), position = value(Position::kOffset), size = value(Size::kOffset);
+  const std::uint32_t mode = value(LayerMode::kOffset), position = value(Position::kOffset),
+                      size = value(Size::kOffset);
   c.shown = (enabled_layers >> layer & 1) != 0;
   c.address = value(bank == 0 ? LayerBank0::kOffset : LayerBank1::kOffset);
   c.stride_bytes = value(LayerStride::kOffset);

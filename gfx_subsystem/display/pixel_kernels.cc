@@ -12,7 +12,8 @@ namespace {
 typedef std::uint32_t U32x4 [[gnu::vector_size(16)]];
 typedef std::uint16_t U16x8 [[gnu::vector_size(16)]];
 
-/// divide_by_255(source * alpha + below * (255 - alpha)) in eight 16-bit lanes; no lane passes 65535: 255 * 255 + 128 + 254.
+/// divide_by_255(source * alpha + below * (255 - alpha)) in eight 16-bit lanes; no lane passes 65535: 255 * 255 + 128 +
+/// 254.
 U16x8 blend_lanes(U16x8 source, U16x8 below, U16x8 alpha) {
   const U16x8 t = source * alpha + below * (255 - alpha) + 128;
   return (t + (t >> 8)) >> 8;
@@ -23,8 +24,10 @@ U32x4 blend4(U32x4 source, U32x4 below) {
   const U32x4 mask = {0x00FF00FF, 0x00FF00FF, 0x00FF00FF, 0x00FF00FF};
   const U32x4 alpha = source >> 24;
   const U16x8 lanes = reinterpret_cast<U16x8>(alpha | alpha << 16);
-  const U16x8 red_blue = blend_lanes(reinterpret_cast<U16x8>(source & mask), reinterpret_cast<U16x8>(below & mask), lanes);
-  const U16x8 green = blend_lanes(reinterpret_cast<U16x8>(source >> 8 & mask), reinterpret_cast<U16x8>(below >> 8 & mask), lanes);
+  const U16x8 red_blue =
+      blend_lanes(reinterpret_cast<U16x8>(source & mask), reinterpret_cast<U16x8>(below & mask), lanes);
+  const U16x8 green =
+      blend_lanes(reinterpret_cast<U16x8>(source >> 8 & mask), reinterpret_cast<U16x8>(below >> 8 & mask), lanes);
   return reinterpret_cast<U32x4>(red_blue) | (reinterpret_cast<U32x4>(green) << 8 & 0x0000FF00u);
 }
 
@@ -36,7 +39,8 @@ std::uint32_t blend1(std::uint32_t source, std::uint32_t below) {
   return shown;
 }
 
-/// Four transparent or four opaque neighbours, the usual case in overlays, are told apart first; the result is the same.
+/// Four transparent or four opaque neighbours, the usual case in overlays, are told apart first; the result is the
+/// same.
 void blend_row(const std::byte* argb, std::size_t count, std::uint32_t* line) {
   constexpr std::uint64_t kAlphas = 0xFF000000FF000000u;
   std::size_t i = 0;

@@ -1,5 +1,5 @@
-// The variant for x86-64 processors with AVX2: eight pixels at a time. Functions carry the target themselves, so that no
-// shared inline function is ever compiled for it.
+// The variant for x86-64 processors with AVX2: eight pixels at a time. Functions carry the target themselves, so that
+// no shared inline function is ever compiled for it.
 #include <immintrin.h>
 
 #include "gfx_subsystem/display/pixel_kernels.h"

@@ -10,25 +10,34 @@ namespace {
 constexpr std::uint32_t kWord = 0xFFFFFFFF, kAddress = 0xFFFFFFFC;
 constexpr std::uint32_t kPosition = Position::kX.mask() | Position::kY.mask();
 constexpr std::uint32_t kSize = Size::kWidth.mask() | Size::kHeight.mask();
-constexpr std::uint32_t kCfgE = CfgE::kTiming.mask() | CfgE::kSignature.mask() | CfgE::kLayers.mask() | CfgE::kCursor.mask();
+constexpr std::uint32_t kCfgE =
+    CfgE::kTiming.mask() | CfgE::kSignature.mask() | CfgE::kLayers.mask() | CfgE::kCursor.mask();
 
 using Info = RegisterInfo<DisplayController>;
 using FlipHook = void (DisplayController::*)(std::uint32_t written, std::uint32_t before);
 constexpr std::size_t kLayerRegisters = 8, kHeadRegisters = 15, kTailRegisters = 9;
 
-constexpr std::array<Info, kLayerRegisters> layer_registers(std::uint32_t n, const char* const (&names)[kLayerRegisters],
+constexpr std::array<Info, kLayerRegisters> layer_registers(std::uint32_t n,
+                                                            const char* const (&names)[kLayerRegisters],
                                                             FlipHook on_flip) {
   return {{
-      {.name = names[0], .offset = layer_register(n, LayerMode::kOffset), .reset = LayerMode::kReset,
+      {.name = names[0],
+       .offset = layer_register(n, LayerMode::kOffset),
+       .reset = LayerMode::kReset,
        .writable = LayerMode::kFmt.mask() | LayerMode::kKey.mask() | LayerMode::kPpa.mask() | LayerMode::kGa.mask()},
-      {.name = names[1], .offset = layer_register(n, LayerStride::kOffset), .writable = LayerStride::kBytes.mask() & kAddress},
+      {.name = names[1],
+       .offset = layer_register(n, LayerStride::kOffset),
+       .writable = LayerStride::kBytes.mask() & kAddress},
       {.name = names[2], .offset = layer_register(n, LayerBank0::kOffset), .writable = kAddress},
       {.name = names[3], .offset = layer_register(n, LayerBank1::kOffset), .writable = kAddress},
       {.name = names[4], .offset = layer_register(n, Position::kOffset), .writable = kPosition},
       {.name = names[5], .offset = layer_register(n, Size::kOffset), .writable = kSize},
       {.name = names[6], .offset = layer_register(n, LayerKey::kOffset), .writable = LayerKey::kRgb.mask()},
-      {.name = names[7], .offset = layer_register(n, LayerFlip::kOffset), .writable = LayerFlip::kBank.mask(),
-       .read_only = LayerFlip::kShown.mask() | LayerFlip::kPend.mask(), .on_write = on_flip},
+      {.name = names[7],
+       .offset = layer_register(n, LayerFlip::kOffset),
+       .writable = LayerFlip::kBank.mask(),
+       .read_only = LayerFlip::kShown.mask() | LayerFlip::kPend.mask(),
+       .on_write = on_flip},
   }};
 }
 
@@ -45,13 +54,19 @@ const DisplayController::Registers::Table DisplayController::kTable = [] {
       {.name = "INTST", .offset = IntSt::kOffset, .write_1_to_clear = kIntAll},
       {.name = "INTEN", .offset = IntEn::kOffset, .writable = kIntAll},
       {.name = "FCNT", .offset = Fcnt::kOffset, .read_only = kWord},
-      {.name = "DST", .offset = Dst::kOffset, .read_only = Dst::kRun.mask() | Dst::kVb.mask(),
+      {.name = "DST",
+       .offset = Dst::kOffset,
+       .read_only = Dst::kRun.mask() | Dst::kVb.mask(),
        .on_read = &DisplayController::read_dst},
-      {.name = "SCAN", .offset = Scan::kOffset, .read_only = Scan::kLine.mask(), .on_read = &DisplayController::read_scan},
+      {.name = "SCAN",
+       .offset = Scan::kOffset,
+       .read_only = Scan::kLine.mask(),
+       .on_read = &DisplayController::read_scan},
       {.name = "BGC", .offset = Bgc::kOffset, .writable = Bgc::kRgb.mask()},
       {.name = "LOCK", .offset = Lock::kOffset, .writable = Lock::kLock.mask()},
       {.name = "CFGE", .offset = CfgE::kOffset, .write_1_to_clear = kCfgE},
-      {.name = "DCM1", .offset = Dcm1::kOffset,
+      {.name = "DCM1",
+       .offset = Dcm1::kOffset,
        .writable = Dcm1::kSc.mask() | Dcm1::kLayers.mask() | Dcm1::kCursor.mask() | Dcm1::kDen.mask(),
        .on_write = &DisplayController::on_dcm1},
   }};
@@ -59,7 +74,8 @@ const DisplayController::Registers::Table DisplayController::kTable = [] {
       layer_registers(0, {"L0M", "L0ST", "L0DA0", "L0DA1", "L0P", "L0S", "L0K", "L0F"}, &DisplayController::on_flip<0>),
       layer_registers(1, {"L1M", "L1ST", "L1DA0", "L1DA1", "L1P", "L1S", "L1K", "L1F"}, &DisplayController::on_flip<1>),
       layer_registers(2, {"L2M", "L2ST", "L2DA0", "L2DA1", "L2P", "L2S", "L2K", "L2F"}, &DisplayController::on_flip<2>),
-      layer_registers(3, {"L3M", "L3ST", "L3DA0", "L3DA1", "L3P", "L3S", "L3K", "L3F"}, &DisplayController::on_flip<3>)};
+      layer_registers(3, {"L3M", "L3ST", "L3DA0", "L3DA1", "L3P", "L3S", "L3K", "L3F"},
+                      &DisplayController::on_flip<3>)};
   constexpr std::array<Info, kTailRegisters> tail{{
       {.name = "CUA", .offset = Cua::kOffset, .writable = kAddress},
       {.name = "CUP", .offset = Cup::kOffset, .writable = kPosition},

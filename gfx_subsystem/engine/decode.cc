@@ -20,14 +20,16 @@ bool finite_non_negative(Vec3 v) { return is_finite(v) && v.x >= 0 && v.y >= 0 &
 
 class Decoder {
  public:
-  Decoder(std::span<const std::uint32_t> list, BusMemory& memory, CommandSink& sink) : list_(list), memory_(memory), sink_(sink) {}
+  Decoder(std::span<const std::uint32_t> list, BusMemory& memory, CommandSink& sink)
+      : list_(list), memory_(memory), sink_(sink) {}
 
   Status run(std::uint64_t& command_words) {
     while (word_ < list_.size()) {
       const std::uint32_t header = list_[word_];
       const auto payload = header & 0xFFFF;
       if ((header & 0x00FF0000) != 0) return fault(StatusCode::kDataLoss, "packet header has bits 23-16 set");
-      if (payload > list_.size() - word_ - 1) return fault(StatusCode::kDataLoss, "packet runs past the end of the list");
+      if (payload > list_.size() - word_ - 1)
+        return fault(StatusCode::kDataLoss, "packet runs past the end of the list");
       if (static_cast<Opcode>(header >> 24) == Opcode::kEnd) {
         command_words = word_ + 1;
         return payload == 0 ? ok_status() : fault(StatusCode::kDataLoss, "end packet has a payload");
@@ -44,7 +46,9 @@ class Decoder {
   }
 
  private:
-  Status fault(StatusCode code, const char* message) const { return {code, message, static_cast<std::uint32_t>(word_)}; }
+  Status fault(StatusCode code, const char* message) const {
+    return {code, message, static_cast<std::uint32_t>(word_)};
+  }
   Status refuse(const char* message) const { return fault(StatusCode::kInvalidArgument, message); }
 
   Status packet(Opcode opcode, std::uint32_t payload) {
@@ -66,7 +70,8 @@ class Decoder {
 
   template <class Packet>
   Status take(std::uint32_t payload) {
-    if (payload != kPayloadWords<Packet>) return fault(StatusCode::kDataLoss, "packet has the wrong length for its opcode");
+    if (payload != kPayloadWords<Packet>)
+      return fault(StatusCode::kDataLoss, "packet has the wrong length for its opcode");
     Packet p;
     std::memcpy(static_cast<void*>(&p), &list_[word_ + 1], sizeof p);
     return apply(p);
@@ -76,9 +81,11 @@ class Decoder {
     if (p.format > PixelFormat::kXrgb8888) return refuse("colour target: unknown pixel format");
     if (p.width == 0 || p.height == 0 || p.width > kMaxTargetSize || p.height > kMaxTargetSize)
       return refuse("colour target: width and height must be 1 to 4096");
-    if (p.base % 4 != 0 || p.stride_bytes % 4 != 0) return refuse("colour target: base and stride must be multiples of 4");
+    if (p.base % 4 != 0 || p.stride_bytes % 4 != 0)
+      return refuse("colour target: base and stride must be multiples of 4");
     auto window = plane(p.base, p.stride_bytes, p.width * bytes_per_pixel(p.format), p.height);
-    if (window.data() == nullptr) return refuse("colour target is not all in writable memory, or its stride is shorter than a row");
+    if (window.data() == nullptr)
+      return refuse("colour target is not all in writable memory, or its stride is shorter than a row");
     state_.colour_target = p;
     state_.colour_memory = window;
     state_.viewport = {0, 0, static_cast<float>(p.width), static_cast<float>(p.height), 0, 1};
@@ -93,10 +100,14 @@ class Decoder {
     state_.depth_target = {};
     state_.depth_memory = {};
     if (p.format == DepthFormat::kNone) return ok_status();
-    if (state_.colour_memory.empty()) return fault(StatusCode::kFailedPrecondition, "depth target set before a colour target");
-    if (p.base % 4 != 0 || p.stride_bytes % 4 != 0) return refuse("depth target: base and stride must be multiples of 4");
-    auto window = plane(p.base, p.stride_bytes, state_.colour_target.width * bytes_per_depth(p.format), state_.colour_target.height);
-    if (window.data() == nullptr) return refuse("depth target is not all in writable memory, or its stride is shorter than a row");
+    if (state_.colour_memory.empty())
+      return fault(StatusCode::kFailedPrecondition, "depth target set before a colour target");
+    if (p.base % 4 != 0 || p.stride_bytes % 4 != 0)
+      return refuse("depth target: base and stride must be multiples of 4");
+    auto window = plane(p.base, p.stride_bytes, state_.colour_target.width * bytes_per_depth(p.format),
+                        state_.colour_target.height);
+    if (window.data() == nullptr)
+      return refuse("depth target is not all in writable memory, or its stride is shorter than a row");
     const auto* colour = state_.colour_memory.data();
     if (window.data() < colour + state_.colour_memory.size() && colour < window.data() + window.size())
       return refuse("depth target overlaps the colour target");
@@ -111,7 +122,8 @@ class Decoder {
   }
 
   Status apply(const SetScissor& p) {
-    const auto clip = [](std::uint32_t start, std::uint32_t size, std::uint32_t limit, std::uint32_t& out_start, std::uint32_t& out_size) {
+    const auto clip = [](std::uint32_t start, std::uint32_t size, std::uint32_t limit, std::uint32_t& out_start,
+                         std::uint32_t& out_size) {
       out_start = start < limit ? start : limit;
       out_size = size < limit - out_start ? size : limit - out_start;
     };
@@ -149,14 +161,16 @@ class Decoder {
         p.depth_function > DepthFunction::kLessEqual || p.depth_test > 1 || p.depth_write > 1)
       return refuse("raster state: a field holds an undefined value");
     const auto size_ok = [](float v) { return v >= 1 && v <= kMaxPrimitiveSize; };
-    if (!size_ok(p.point_size) || !size_ok(p.line_width)) return refuse("raster state: point size and line width must be 1 to 64 pixels");
+    if (!size_ok(p.point_size) || !size_ok(p.line_width))
+      return refuse("raster state: point size and line width must be 1 to 64 pixels");
     state_.raster = p;
     return ok_status();
   }
 
   Status apply(const SetVertexStreams& p) {
     if (p.texture_coordinates != 0 || p.texture_coordinate_stride != 0)
-      return fault(StatusCode::kUnsupported, "vertex streams: texture coordinates are not supported by this engine version");
+      return fault(StatusCode::kUnsupported,
+                   "vertex streams: texture coordinates are not supported by this engine version");
     state_.streams = {};
     state_.positions = state_.normals = state_.colours = {};
     if (p.vertex_count == 0) return refuse("vertex streams: vertex count is 0");
@@ -167,8 +181,10 @@ class Decoder {
     return status;
   }
 
-  Status stream(BusAddress address, std::uint32_t stride, std::uint32_t element, std::uint32_t count, std::span<const std::byte>& out) {
-    if (address % 4 != 0 || stride % 4 != 0 || stride < element) return refuse("vertex streams: address and stride must be multiples of 4, stride no shorter than an element");
+  Status stream(BusAddress address, std::uint32_t stride, std::uint32_t element, std::uint32_t count,
+                std::span<const std::byte>& out) {
+    if (address % 4 != 0 || stride % 4 != 0 || stride < element)
+      return refuse("vertex streams: address and stride must be multiples of 4, stride no shorter than an element");
     const std::uint64_t bytes = std::uint64_t{stride} * (count - 1) + element;
     if (bytes > 0xFFFFFFFFu) return refuse("vertex streams: stream is longer than the address space");
     out = memory_.read_window(address, static_cast<std::size_t>(bytes));
@@ -176,17 +192,24 @@ class Decoder {
   }
 
   Status apply(const Clear& p) {
-    if (state_.colour_memory.empty()) return fault(StatusCode::kFailedPrecondition, "clear before a colour target is set");
-    if ((p.planes & ~(kClearColour | kClearDepth)) != 0 || !in_unit(p.depth)) return refuse("clear: undefined plane, or depth outside [0, 1]");
-    if ((p.planes & kClearDepth) != 0 && state_.depth_memory.empty()) return fault(StatusCode::kFailedPrecondition, "clear of depth without a depth target");
+    if (state_.colour_memory.empty())
+      return fault(StatusCode::kFailedPrecondition, "clear before a colour target is set");
+    if ((p.planes & ~(kClearColour | kClearDepth)) != 0 || !in_unit(p.depth))
+      return refuse("clear: undefined plane, or depth outside [0, 1]");
+    if ((p.planes & kClearDepth) != 0 && state_.depth_memory.empty())
+      return fault(StatusCode::kFailedPrecondition, "clear of depth without a depth target");
     return at_this_word(sink_.clear(state_, p));
   }
 
   Status apply(const Draw& p) {
-    if (state_.colour_memory.empty()) return fault(StatusCode::kFailedPrecondition, "draw before a colour target is set");
-    if (state_.positions.data() == nullptr) return fault(StatusCode::kFailedPrecondition, "draw before vertex streams are set");
-    if (state_.raster.depth_test != 0 && state_.depth_memory.empty()) return fault(StatusCode::kFailedPrecondition, "depth test without a depth target");
-    if (p.topology > Topology::kTriangleFan || p.index_format > IndexFormat::kU32) return refuse("draw: undefined topology or index format");
+    if (state_.colour_memory.empty())
+      return fault(StatusCode::kFailedPrecondition, "draw before a colour target is set");
+    if (state_.positions.data() == nullptr)
+      return fault(StatusCode::kFailedPrecondition, "draw before vertex streams are set");
+    if (state_.raster.depth_test != 0 && state_.depth_memory.empty())
+      return fault(StatusCode::kFailedPrecondition, "depth test without a depth target");
+    if (p.topology > Topology::kTriangleFan || p.index_format > IndexFormat::kU32)
+      return refuse("draw: undefined topology or index format");
     DrawCall call;
     call.draw = p;
     call.word = static_cast<std::uint32_t>(word_);
@@ -206,7 +229,8 @@ class Decoder {
     const auto overlaps = [](std::span<const std::byte> a, std::span<const std::byte> b) {
       return !a.empty() && !b.empty() && a.data() < b.data() + b.size() && b.data() < a.data() + a.size();
     };
-    for (std::span<const std::byte> target : {std::span<const std::byte>(state_.colour_memory), std::span<const std::byte>(state_.depth_memory)})
+    for (std::span<const std::byte> target :
+         {std::span<const std::byte>(state_.colour_memory), std::span<const std::byte>(state_.depth_memory)})
       for (std::span<const std::byte> source : {state_.positions, state_.normals, state_.colours, call.indices})
         if (overlaps(target, source)) return true;
     return false;
@@ -235,7 +259,8 @@ class Decoder {
     return ok_status();
   }
 
-  /// Least and greatest index, sixteen bytes at a time: this looks at every index of a draw before any thread may start.
+  /// Least and greatest index, sixteen bytes at a time: this looks at every index of a draw before any thread may
+  /// start.
   template <class T, class Lanes>
   static void scan(DrawCall& call) {
     constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(T);

@@ -10,8 +10,8 @@
 
 namespace usuzumi::gfx {
 
-/// What one list made the engine do; the cost model turns it into cycles (cost_model.h). Counts do not depend on threads
-/// or SIMD width.
+/// What one list made the engine do; the cost model turns it into cycles (cost_model.h). Counts do not depend on
+/// threads or SIMD width.
 struct EngineCounters {
   std::uint64_t command_words = 0;
   std::uint64_t vertices_transformed = 0;  // vertices of every draw's range, each once

@@ -1,5 +1,5 @@
-// The engine's state as a command list has set it, with every address resolved and every value checked: what both engines
-// draw from.
+// The engine's state as a command list has set it, with every address resolved and every value checked: what both
+// engines draw from.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,8 @@ namespace usuzumi::gfx {
 
 struct EngineState {
   command::SetColourTarget colour_target;
-  std::span<std::byte> colour_memory;  // height * stride bytes (the last row may end at its last pixel); empty: no target
+  std::span<std::byte>
+      colour_memory;  // height * stride bytes (the last row may end at its last pixel); empty: no target
   command::SetDepthTarget depth_target;
   std::span<std::byte> depth_memory;   // empty: no depth target
   command::SetScissor scissor;         // clipped to the target
@@ -34,8 +35,16 @@ struct DrawCall {
   /// Vertex number of the draw's i-th vertex, i < draw.count.
   std::uint32_t vertex(std::uint32_t i) const {
     switch (draw.index_format) {
-      case command::IndexFormat::kU16: { std::uint16_t v; std::memcpy(&v, indices.data() + 2 * std::size_t{i}, 2); return v; }
-      case command::IndexFormat::kU32: { std::uint32_t v; std::memcpy(&v, indices.data() + 4 * std::size_t{i}, 4); return v; }
+      case command::IndexFormat::kU16: {
+        std::uint16_t v;
+        std::memcpy(&v, indices.data() + 2 * std::size_t{i}, 2);
+        return v;
+      }
+      case command::IndexFormat::kU32: {
+        std::uint32_t v;
+        std::memcpy(&v, indices.data() + 4 * std::size_t{i}, 4);
+        return v;
+      }
       case command::IndexFormat::kNone: break;
     }
     return draw.first + i;

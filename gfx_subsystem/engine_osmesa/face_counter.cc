@@ -82,7 +82,8 @@ class FaceTest {
     std::memcpy(&p, state_.positions.data() + std::size_t{vertex} * state_.streams.position_stride, sizeof p);
     const auto& m = state_.transform.model_to_clip.m;
     const auto row = [&](int r) {
-      return double{m[4 * r]} * double{p.x} + double{m[4 * r + 1]} * double{p.y} + double{m[4 * r + 2]} * double{p.z} + double{m[4 * r + 3]};
+      return double{m[4 * r]} * double{p.x} + double{m[4 * r + 1]} * double{p.y} + double{m[4 * r + 2]} * double{p.z} +
+             double{m[4 * r + 3]};
     };
     return {row(0), row(1), row(2), row(3)};
   }
@@ -99,7 +100,9 @@ std::uint64_t count_faces_drawn(const EngineState& state, const DrawCall& call) 
   for (std::uint32_t i = 0; i < faces; ++i) {
     bool counts = false;
     switch (call.draw.topology) {
-      case Topology::kTriangles: counts = test.drawn(call.vertex(3 * i), call.vertex(3 * i + 1), call.vertex(3 * i + 2)); break;
+      case Topology::kTriangles:
+        counts = test.drawn(call.vertex(3 * i), call.vertex(3 * i + 1), call.vertex(3 * i + 2));
+        break;
       case Topology::kTriangleStrip:  // every second triangle with its first two corners exchanged
         counts = test.drawn(call.vertex(i + i % 2), call.vertex(i + 1 - i % 2), call.vertex(i + 2));
         break;

@@ -1,4 +1,5 @@
-// OpenGL and OSMesa with the prototypes of everything up to the version the engine asks for; libOSMesa exports them all.
+// OpenGL and OSMesa with the prototypes of everything up to the version the engine asks for; libOSMesa exports them
+// all.
 #pragma once
 
 #ifndef GL_GLEXT_PROTOTYPES

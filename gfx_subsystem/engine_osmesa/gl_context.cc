@@ -36,22 +36,32 @@ GlContext::~GlContext() {
 }
 
 bool GlContext::make_current() {
-  return context_ != nullptr && OSMesaMakeCurrent(context_, unused_, GL_UNSIGNED_BYTE, kUnusedSize, kUnusedSize) == GL_TRUE;
+  return context_ != nullptr &&
+         OSMesaMakeCurrent(context_, unused_, GL_UNSIGNED_BYTE, kUnusedSize, kUnusedSize) == GL_TRUE;
 }
 
 Status GlContext::start(std::uint32_t threads) {
   choose_driver(threads);
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_BGRA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION,
-                            kMajorVersion, OSMESA_CONTEXT_MINOR_VERSION, kMinorVersion, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_BGRA,
+                            OSMESA_PROFILE,
+                            OSMESA_COMPAT_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            kMajorVersion,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            kMinorVersion,
+                            0};
   context_ = OSMesaCreateContextAttribs(attributes, nullptr);
   if (context_ == nullptr)
-    return unavailable("OSMesa cannot make an OpenGL 4.2 context; install libosmesa6 (Mesa 20 or newer), or unset GALLIUM_DRIVER");
+    return unavailable(
+        "OSMesa cannot make an OpenGL 4.2 context; install libosmesa6 (Mesa 20 or newer), or unset GALLIUM_DRIVER");
   const Current current(*this);
   if (!current.ok()) return unavailable("OSMesa made a context but cannot make it current");
   renderer_ = gl_string(GL_RENDERER);
   const char* driver = std::getenv("GALLIUM_DRIVER");
   if (driver != nullptr && std::string_view(driver) == "llvmpipe" && !renderer_.starts_with("llvmpipe"))
-    return unavailable("OSMesa was asked for llvmpipe and started another renderer; this Mesa is built without llvmpipe");
+    return unavailable(
+        "OSMesa was asked for llvmpipe and started another renderer; this Mesa is built without llvmpipe");
   return ok_status();
 }
 

@@ -19,7 +19,8 @@ class GlContext {
   const Status& status() const { return status_; }
   const std::string& renderer() const { return renderer_; }
 
-  /// Makes the context current on the calling thread, and no context current at the scope's end. Whoever draws holds one.
+  /// Makes the context current on the calling thread, and no context current at the scope's end. Whoever draws holds
+  /// one.
   class Current {
    public:
     explicit Current(GlContext& context) : ok_(context.make_current()) {}

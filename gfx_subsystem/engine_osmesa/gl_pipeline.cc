@@ -64,7 +64,8 @@ GLboolean boolean(bool on) { return on ? GL_TRUE : GL_FALSE; }
 
 void set_scissor(const SetScissor& s) {
   glEnable(GL_SCISSOR_TEST);
-  glScissor(static_cast<GLint>(s.x), static_cast<GLint>(s.y), static_cast<GLsizei>(s.width), static_cast<GLsizei>(s.height));
+  glScissor(static_cast<GLint>(s.x), static_cast<GLint>(s.y), static_cast<GLsizei>(s.width),
+            static_cast<GLsizei>(s.height));
 }
 
 }  // namespace
@@ -75,7 +76,8 @@ GlPipeline::~GlPipeline() {
 }
 
 Status GlPipeline::start() {
-  const GLuint vertex = compile(GL_VERTEX_SHADER, kVertexShader), fragment = compile(GL_FRAGMENT_SHADER, kFragmentShader);
+  const GLuint vertex = compile(GL_VERTEX_SHADER, kVertexShader),
+               fragment = compile(GL_FRAGMENT_SHADER, kFragmentShader);
   program_ = glCreateProgram();
   glAttachShader(program_, vertex);
   glAttachShader(program_, fragment);
@@ -87,7 +89,8 @@ Status GlPipeline::start() {
   glDeleteShader(fragment);
   GLint linked = GL_FALSE;
   glGetProgramiv(program_, GL_LINK_STATUS, &linked);
-  if (linked != GL_TRUE) return {StatusCode::kUnavailable, "OSMesa does not compile the engine's shaders; its OpenGL is too old", 0};
+  if (linked != GL_TRUE)
+    return {StatusCode::kUnavailable, "OSMesa does not compile the engine's shaders; its OpenGL is too old", 0};
   model_to_clip_ = glGetUniformLocation(program_, "model_to_clip");
   lit_ = glGetUniformLocation(program_, "lit");
   to_light_ = glGetUniformLocation(program_, "to_light");
@@ -170,12 +173,14 @@ void GlPipeline::apply_uniforms(const EngineState& state) {
 
 void GlPipeline::apply_streams(const EngineState& state) {
   const auto stride = [](std::uint32_t bytes) { return static_cast<GLsizei>(bytes); };
-  glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride(state.streams.position_stride), state.positions.data());
+  glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride(state.streams.position_stride),
+                        state.positions.data());
   if (state.normals.empty()) {
     glDisableVertexAttribArray(kNormal);
   } else {
     glEnableVertexAttribArray(kNormal);
-    glVertexAttribPointer(kNormal, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride(state.streams.normal_stride), state.normals.data());
+    glVertexAttribPointer(kNormal, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride(state.streams.normal_stride),
+                          state.normals.data());
   }
   if (state.colours.empty()) {
     const Rgba8 c = state.streams.constant_colour;
@@ -184,7 +189,8 @@ void GlPipeline::apply_streams(const EngineState& state) {
                        static_cast<GLubyte>(c.a()));
   } else {
     glEnableVertexAttribArray(kColour);
-    glVertexAttribPointer(kColour, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride(state.streams.colour_stride), state.colours.data());
+    glVertexAttribPointer(kColour, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride(state.streams.colour_stride),
+                          state.colours.data());
   }
 }
 

@@ -1,4 +1,5 @@
-// One command of a list as OpenGL calls: state, clear, draw, count. The context is current in every call, the destructor's too.
+// One command of a list as OpenGL calls: state, clear, draw, count. The context is current in every call, the
+// destructor's too.
 #pragma once
 
 #include <cstdint>

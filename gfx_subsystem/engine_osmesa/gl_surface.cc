@@ -9,9 +9,9 @@ namespace {
 using command::DepthFormat;
 using command::PixelFormat;
 
-// What glTexImage2D and glReadPixels call our formats. Bits 31-24 of an XRGB8888 pixel travel as alpha, those of a 24-bit
-// depth as stencil, all unchanged. RGB565 is drawn in 16 bits per channel and rounded to the nearest step when stored:
-// llvmpipe's own GL_RGB565 rounds to 8 bits and then cuts, up to a whole step off.
+// What glTexImage2D and glReadPixels call our formats. Bits 31-24 of an XRGB8888 pixel travel as alpha, those of a
+// 24-bit depth as stencil, all unchanged. RGB565 is drawn in 16 bits per channel and rounded to the nearest step when
+// stored: llvmpipe's own GL_RGB565 rounds to 8 bits and then cuts, up to a whole step off.
 struct TransferFormat {
   GLint internal;
   GLenum format, type;
@@ -28,11 +28,15 @@ constexpr TransferFormat transfer(DepthFormat f) {
 constexpr std::uint32_t kDepth24Mask = 0x00FFFFFFu;
 
 // A channel of `max` + 1 steps to and from 16 bits, each to the nearest: there and back gives the same.
-constexpr std::uint16_t to_16_bits(std::uint32_t v, std::uint32_t max) { return static_cast<std::uint16_t>((v * 65535 + max / 2) / max); }
+constexpr std::uint16_t to_16_bits(std::uint32_t v, std::uint32_t max) {
+  return static_cast<std::uint16_t>((v * 65535 + max / 2) / max);
+}
 constexpr std::uint32_t from_16_bits(std::uint32_t v, std::uint32_t max) { return (v * max + 32767) / 65535; }
 
 // Rows in VRAM are a whole number of pixels apart: strides are multiples of 4 bytes and pixels 2 or 4.
-GLint row_pixels(std::uint32_t stride_bytes, std::uint32_t pixel_bytes) { return static_cast<GLint>(stride_bytes / pixel_bytes); }
+GLint row_pixels(std::uint32_t stride_bytes, std::uint32_t pixel_bytes) {
+  return static_cast<GLint>(stride_bytes / pixel_bytes);
+}
 
 GLuint make_texture(const TransferFormat& t, GLsizei width, GLsizei height) {
   GLuint texture = 0;
@@ -45,10 +49,12 @@ GLuint make_texture(const TransferFormat& t, GLsizei width, GLsizei height) {
   return texture;
 }
 
-void upload(GLuint texture, const TransferFormat& t, GLint row_length, std::uint32_t width, std::uint32_t height, const void* pixels) {
+void upload(GLuint texture, const TransferFormat& t, GLint row_length, std::uint32_t width, std::uint32_t height,
+            const void* pixels) {
   glBindTexture(GL_TEXTURE_2D, texture);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, row_length);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), t.format, t.type, pixels);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), t.format, t.type,
+                  pixels);
 }
 
 void download(const TransferFormat& t, GLint row_length, std::uint32_t width, std::uint32_t height, void* pixels) {
@@ -64,8 +70,9 @@ bool GlSurface::same_targets(const EngineState& state) const {
   const auto& c = state.colour_target;
   const auto& d = state.depth_target;
   return !colour_memory_.empty() && colour_memory_.data() == state.colour_memory.data() &&
-         depth_memory_.data() == state.depth_memory.data() && c.width == colour_target_.width && c.height == colour_target_.height &&
-         c.format == colour_target_.format && c.stride_bytes == colour_target_.stride_bytes && d.format == depth_target_.format &&
+         depth_memory_.data() == state.depth_memory.data() && c.width == colour_target_.width &&
+         c.height == colour_target_.height && c.format == colour_target_.format &&
+         c.stride_bytes == colour_target_.stride_bytes && d.format == depth_target_.format &&
          (d.format == DepthFormat::kNone || d.stride_bytes == depth_target_.stride_bytes);
 }
 
@@ -95,7 +102,8 @@ Status GlSurface::allocate_textures() {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_texture_, 0);
   if (texture_depth_format_ != DepthFormat::kNone) {
     depth_texture_ = make_texture(transfer(texture_depth_format_), width, height);
-    const GLenum attachment = texture_depth_format_ == DepthFormat::kUnorm16 ? GL_DEPTH_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT;
+    const GLenum attachment =
+        texture_depth_format_ == DepthFormat::kUnorm16 ? GL_DEPTH_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT;
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, depth_texture_, 0);
   }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return ok_status();
@@ -116,8 +124,8 @@ void GlSurface::prepare_colour(bool whole) {
     if (colour_target_.format == PixelFormat::kRgb565) {
       load_rgb565();
     } else {
-      upload(colour_texture_, transfer(PixelFormat::kXrgb8888), row_pixels(colour_target_.stride_bytes, 4), colour_target_.width,
-             colour_target_.height, colour_memory_.data());
+      upload(colour_texture_, transfer(PixelFormat::kXrgb8888), row_pixels(colour_target_.stride_bytes, 4),
+             colour_target_.width, colour_target_.height, colour_memory_.data());
     }
   }
   colour_ = {true, true};
@@ -128,8 +136,8 @@ void GlSurface::prepare_depth(bool whole) {
     if (depth_target_.format == DepthFormat::kUnorm24) {
       load_depth24();
     } else {
-      upload(depth_texture_, transfer(depth_target_.format), row_pixels(depth_target_.stride_bytes, 2), colour_target_.width,
-             colour_target_.height, depth_memory_.data());
+      upload(depth_texture_, transfer(depth_target_.format), row_pixels(depth_target_.stride_bytes, 2),
+             colour_target_.width, colour_target_.height, depth_memory_.data());
     }
   }
   depth_ = {true, true};
@@ -149,8 +157,8 @@ void GlSurface::store() {
     if (depth_target_.format == DepthFormat::kUnorm24) {
       store_depth24();
     } else {
-      download(transfer(depth_target_.format), row_pixels(depth_target_.stride_bytes, 2), colour_target_.width, colour_target_.height,
-               depth_memory_.data());
+      download(transfer(depth_target_.format), row_pixels(depth_target_.stride_bytes, 2), colour_target_.width,
+               colour_target_.height, depth_memory_.data());
     }
   }
   colour_ = depth_ = {};
@@ -171,7 +179,8 @@ void GlSurface::load_rgb565() {
       *channel++ = 0xFFFF;
     }
   }
-  upload(colour_texture_, transfer(PixelFormat::kRgb565), 0, colour_target_.width, colour_target_.height, channels_.data());
+  upload(colour_texture_, transfer(PixelFormat::kRgb565), 0, colour_target_.width, colour_target_.height,
+         channels_.data());
 }
 
 void GlSurface::store_rgb565() {
@@ -200,7 +209,8 @@ void GlSurface::load_depth24() {
       *word++ = std::rotl(v, 8);
     }
   }
-  upload(depth_texture_, transfer(DepthFormat::kUnorm24), 0, colour_target_.width, colour_target_.height, depth_words_.data());
+  upload(depth_texture_, transfer(DepthFormat::kUnorm24), 0, colour_target_.width, colour_target_.height,
+         depth_words_.data());
 }
 
 // A word whose depth has not changed keeps its bits 31-24; the others get zeros there.

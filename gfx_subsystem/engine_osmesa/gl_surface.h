@@ -22,7 +22,8 @@ class GlSurface {
   /// Makes the state's targets the ones drawn to. Targets left behind are stored first.
   Status select(const EngineState& state);
 
-  /// To be called before planes change: `whole` when every pixel of them is about to be overwritten, which spares the load.
+  /// To be called before planes change: `whole` when every pixel of them is about to be overwritten, which spares the
+  /// load.
   void prepare_colour(bool whole);
   void prepare_depth(bool whole);
 

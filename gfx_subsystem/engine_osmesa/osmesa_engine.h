@@ -29,8 +29,8 @@ class OsmesaEngine final : public Engine {
   const char* renderer() const;
 
  private:
-  /// Counters: pixels_tested is counted by OpenGL (occlusion queries, with depth compared to nothing), faces_drawn on the
-  /// CPU (face_counter.h), the rest follows from the list alone.
+  /// Counters: pixels_tested is counted by OpenGL (occlusion queries, with depth compared to nothing), faces_drawn on
+  /// the CPU (face_counter.h), the rest follows from the list alone.
   ExecutionReport do_execute(std::span<const std::uint32_t> list, BusMemory& memory) override;
 
   class Implementation;

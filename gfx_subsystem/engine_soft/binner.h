@@ -21,8 +21,8 @@ class Binner {
  public:
   Binner(SlotPool& pool, TileGrid grid, TileList* lists) : pool_(pool), grid_(grid), lists_(lists) {}
 
-  /// Makes sure that a record of `record_slots` can be added to all tiles of `range`: each may need a new block. Nothing
-  /// has changed when the pool refuses.
+  /// Makes sure that a record of `record_slots` can be added to all tiles of `range`: each may need a new block.
+  /// Nothing has changed when the pool refuses.
   bool reserve(std::uint32_t record_slots, const TileRange& range) {
     const std::uint32_t need = record_slots + range.count();
     return need <= end_ - cursor_ || refill(need);
@@ -37,7 +37,8 @@ class Binner {
 
   /// After reserve().
   void append(const TileRange& range, std::uint32_t entry) {
-    if (range.x0 == range.x1 && range.y0 == range.y1) [[likely]] return append(lists_[range.y0 * grid_.columns + range.x0], entry);
+    if (range.x0 == range.x1 && range.y0 == range.y1) [[likely]]
+      return append(lists_[range.y0 * grid_.columns + range.x0], entry);
     for (std::int32_t y = range.y0; y <= range.y1; ++y)
       for (std::int32_t x = range.x0; x <= range.x1; ++x) append(lists_[y * grid_.columns + x], entry);
   }
@@ -59,7 +60,8 @@ class Binner {
 
   /// Slots are taken a page at a time so that threads seldom meet; small pools have small pages.
   bool refill(std::uint32_t need) {
-    const std::uint32_t page = pool_.capacity() / 256 < 16 ? 16 : (pool_.capacity() / 256 > 256 ? 256 : pool_.capacity() / 256);
+    const std::uint32_t page =
+        pool_.capacity() / 256 < 16 ? 16 : (pool_.capacity() / 256 > 256 ? 256 : pool_.capacity() / 256);
     for (const std::uint32_t count : {need > page ? need : page, need}) {
       const std::uint32_t at = pool_.take(count);
       if (at == SlotPool::kNone) continue;

@@ -57,7 +57,8 @@ ClippedPolygon clip_triangle(const DrawSetup& d, const ClipVertex (&corner)[3]) 
     ClipVertex* out = buffer[1 - from];
     int kept = 0;
     for (int i = 0; i < count; ++i) {
-      // A convex polygon crosses a plane twice. One so thin that rounding makes it cross more often has no area to lose.
+      // A convex polygon crosses a plane twice. One so thin that rounding makes it cross more often has no area to
+      // lose.
       if (kept + 2 > kMaxClippedCorners + 1) return {};
       const ClipVertex &a = in[i], &b = in[i + 1 < count ? i + 1 : 0];
       const float da = distance(d, plane, a.position), db = distance(d, plane, b.position);

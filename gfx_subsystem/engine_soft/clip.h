@@ -1,7 +1,8 @@
 // Clipping of the primitives that need it: near and far plane, and the guard band's four sides.
 //
 // Everything else is left to the raster: it never visits a pixel outside the clip rectangle. A new vertex on a plane is
-// always computed from the end inside towards the end outside, so that two triangles sharing an edge get the same vertex.
+// always computed from the end inside towards the end outside, so that two triangles sharing an edge get the same
+// vertex.
 #pragma once
 
 #include "gfx_subsystem/engine_soft/draw_setup.h"

@@ -14,7 +14,8 @@ std::int32_t first_centre(float edge) { return static_cast<std::int32_t>(std::ce
 PixelRect clip_rect(const EngineState& s) {
   const auto& v = s.viewport;
   PixelRect r{static_cast<std::int32_t>(s.scissor.x), static_cast<std::int32_t>(s.scissor.y),
-              static_cast<std::int32_t>(s.scissor.x + s.scissor.width), static_cast<std::int32_t>(s.scissor.y + s.scissor.height)};
+              static_cast<std::int32_t>(s.scissor.x + s.scissor.width),
+              static_cast<std::int32_t>(s.scissor.y + s.scissor.height)};
   r.x0 = std::max(r.x0, first_centre(v.x));
   r.y0 = std::max(r.y0, first_centre(v.y));
   r.x1 = std::min(r.x1, first_centre(v.x + v.width));
@@ -43,7 +44,9 @@ DrawSetup prepare_draw(const EngineState& s, const DrawCall& call) {
   const auto& v = s.viewport;
   const float half_width = v.width / 2, half_height = v.height / 2;
   const float centre_x = v.x + half_width, centre_y = v.y + half_height;
-  d.depth_limit = s.depth_target.format == DepthFormat::kUnorm16 ? 65535.0f : s.depth_target.format == DepthFormat::kUnorm24 ? 16777215.0f : 0.0f;
+  d.depth_limit = s.depth_target.format == DepthFormat::kUnorm16   ? 65535.0f
+                  : s.depth_target.format == DepthFormat::kUnorm24 ? 16777215.0f
+                                                                   : 0.0f;
   d.scale[0] = half_width * kSubpixelOne;
   d.scale[1] = -half_height * kSubpixelOne;
   d.scale[2] = (v.far_depth - v.near_depth) / 2;
@@ -75,7 +78,9 @@ DrawSetup prepare_draw(const EngineState& s, const DrawCall& call) {
   d.line_half_width = static_cast<std::int32_t>(r.line_width * kSubpixelHalf + 0.5f);
 
   d.depth_test = r.depth_test != 0;
-  d.depth_bias = r.depth_function == DepthFunction::kLess ? 0 : r.depth_function == DepthFunction::kLessEqual ? 1 : 1 << 30;
+  d.depth_bias = r.depth_function == DepthFunction::kLess        ? 0
+                 : r.depth_function == DepthFunction::kLessEqual ? 1
+                                                                 : 1 << 30;
   d.depth_write = r.depth_write != 0 ? -1 : 0;
   return d;
 }

@@ -24,8 +24,9 @@ inline VertexSpan vertices_of(command::Topology topology, std::uint32_t first, s
   return {};
 }
 
-/// Runs primitives of one draw. Pieces are the triangles a primitive is made of (clipping makes several, and so do points
-/// and lines): a pool that is exhausted in between leaves a primitive half binned, and the job goes on at that piece.
+/// Runs primitives of one draw. Pieces are the triangles a primitive is made of (clipping makes several, and so do
+/// points and lines): a pool that is exhausted in between leaves a primitive half binned, and the job goes on at that
+/// piece.
 class DrawRun {
  public:
   DrawRun(const Round& round, Job& job, Worker& worker, Binner& binner, std::uint32_t draw)
@@ -63,11 +64,14 @@ class DrawRun {
         const std::byte* indices = d_.call.indices.data();
         const std::uint32_t base = base_;
         if (d_.call.draw.index_format == command::IndexFormat::kU16)
-          return assemble(first, count, [=](std::uint32_t i) { return load<std::uint16_t>(indices + 2 * std::size_t{i}) - base; });
-        return assemble(first, count, [=](std::uint32_t i) { return load<std::uint32_t>(indices + 4 * std::size_t{i}) - base; });
+          return assemble(first, count,
+                          [=](std::uint32_t i) { return load<std::uint16_t>(indices + 2 * std::size_t{i}) - base; });
+        return assemble(first, count,
+                        [=](std::uint32_t i) { return load<std::uint32_t>(indices + 4 * std::size_t{i}) - base; });
       }
       if (span_.count > worker_.vertex_capacity) continue;
-      transform_vertices(d_, span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); }, worker_.vertices);
+      transform_vertices(
+          d_, span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); }, worker_.vertices);
       return assemble(first, count, [this](std::uint32_t i) { return i - span_.first; });
     }
   }
@@ -107,10 +111,13 @@ class DrawRun {
       case command::Topology::kLines:
         return each([&](std::uint32_t i) { return line(v[local(2 * i)], v[local(2 * i + 1)], 2 * i, 2 * i + 1); });
       case command::Topology::kTriangles:
-        return triangles(first, count, [&](std::uint32_t i, std::uint32_t k) { return 3 * i + k; }, [&](std::uint32_t at) { return v + local(at); });
+        return triangles(
+            first, count, [&](std::uint32_t i, std::uint32_t k) { return 3 * i + k; },
+            [&](std::uint32_t at) { return v + local(at); });
       case command::Topology::kTriangleStrip:  // every other triangle is turned to keep the winding
-        return triangles(first, count, [](std::uint32_t i, std::uint32_t k) { return k == 2 ? i + 2 : i + ((i & 1) ^ k); },
-                         [&](std::uint32_t at) { return v + local(at); });
+        return triangles(
+            first, count, [](std::uint32_t i, std::uint32_t k) { return k == 2 ? i + 2 : i + ((i & 1) ^ k); },
+            [&](std::uint32_t at) { return v + local(at); });
       case command::Topology::kTriangleFan:
         return triangles(first, count, [](std::uint32_t i, std::uint32_t k) { return k == 0 ? 0 : i + k; },
                          [&](std::uint32_t at) { return at == 0 ? &centre_vertex_ : v + local(at); });
@@ -145,8 +152,8 @@ class DrawRun {
     return flush(first + count);
   }
 
-  /// Sets up the candidates. All primitives before `done` are then dealt with; when the pool is exhausted, those before the
-  /// candidate that found it so.
+  /// Sets up the candidates. All primitives before `done` are then dealt with; when the pool is exhausted, those before
+  /// the candidate that found it so.
   [[gnu::noinline]] bool flush(std::uint32_t done) {
     for (std::uint32_t k = 0; k < candidates_; ++k) {
       if (setup_.put(candidate_[k], candidate_[k].provoking())) [[likely]] continue;
@@ -160,12 +167,14 @@ class DrawRun {
     return true;
   }
 
-  [[gnu::noinline]] bool clipped_triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
+  [[gnu::noinline]] bool clipped_triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t ia,
+                                          std::uint32_t ib, std::uint32_t ic) {
     if (((a.outcode | b.outcode | c.outcode) & kNotANumber) != 0) return true;
     const ClippedPolygon p = clip_triangle(d_, {clip_vertex(a, ia), clip_vertex(b, ib), clip_vertex(c, ic)});
     std::uint32_t drawn = 0;
     for (int i = 2; i < p.corners; ++i)
-      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], c, true, drawn)) return false;
+      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], c, true, drawn))
+        return false;
     job_.next.piece = 0;
     ++job_.next.primitive;
     job_.faces_drawn += drawn != 0;
@@ -189,7 +198,9 @@ class DrawRun {
     if ((a.outcode & b.outcode & kViewSides) != 0) return true;
     Vertex end[2] = {a, b};
     if (((a.outcode | b.outcode) & kNeedsClip) != 0) {
-      if (((a.outcode | b.outcode) & kNotANumber) != 0 || !clip_segment(d_, {clip_vertex(a, ia), clip_vertex(b, ib)}, end)) return true;
+      if (((a.outcode | b.outcode) & kNotANumber) != 0 ||
+          !clip_segment(d_, {clip_vertex(a, ia), clip_vertex(b, ib)}, end))
+        return true;
     }
     const std::int32_t h = d_.line_half_width;
     const bool wide = std::abs(end[1].x - end[0].x) >= std::abs(end[1].y - end[0].y);
@@ -201,15 +212,20 @@ class DrawRun {
   /// Two triangles; neither culled nor counted as faces.
   bool quad(const Vertex (&corner)[4], const Vertex& provoking) {
     std::uint32_t drawn = 0;
-    if (!piece(0, corner[0], corner[1], corner[2], provoking, false, drawn) || !piece(1, corner[0], corner[2], corner[3], provoking, false, drawn)) return false;
+    if (!piece(0, corner[0], corner[1], corner[2], provoking, false, drawn) ||
+        !piece(1, corner[0], corner[2], corner[3], provoking, false, drawn))
+      return false;
     job_.next.piece = 0;
     return true;
   }
 
   /// A flat piece takes the primitive's provoking vertex, whose place among the corners clipping may have lost.
-  [[gnu::noinline]] bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& provoking, bool may_cull, std::uint32_t& drawn) {
+  [[gnu::noinline]] bool piece(std::uint32_t number, const Vertex& a, const Vertex& b, const Vertex& c,
+                               const Vertex& provoking, bool may_cull, std::uint32_t& drawn) {
     Candidate candidate;
-    if (setup_.examine(a, b, c, may_cull, candidate, drawn) && number >= job_.next.piece && !setup_.put(candidate, provoking)) return false;
+    if (setup_.examine(a, b, c, may_cull, candidate, drawn) && number >= job_.next.piece &&
+        !setup_.put(candidate, provoking))
+      return false;
     job_.next.piece = std::max(job_.next.piece, number + 1);
     return true;
   }
@@ -247,7 +263,8 @@ void run_geometry(const Round& r, Job& job, Worker& worker) {
   Binner binner(*r.pool, r.grid, job.lists);
   for (; job.next.item < job.end_item; ++job.next.item, job.next.primitive = 0) {
     const WorkItem& item = r.items[job.next.item];
-    const bool done = item.is_clear ? bin_clear(r, binner, item.index) : DrawRun(r, job, worker, binner, item.index).run(item);
+    const bool done =
+        item.is_clear ? bin_clear(r, binner, item.index) : DrawRun(r, job, worker, binner, item.index).run(item);
     if (!done) return;
   }
   job.complete = true;

@@ -7,5 +7,6 @@
 
 namespace usuzumi::gfx::soft {
 extern const Kernels kBaselineKernels;
-const Kernels kBaselineKernels{"baseline", [] { return true; }, baseline::run_geometry, baseline::run_tile, baseline::run_clears};
+const Kernels kBaselineKernels{"baseline", [] { return true; }, baseline::run_geometry, baseline::run_tile,
+                               baseline::run_clears};
 }  // namespace usuzumi::gfx::soft

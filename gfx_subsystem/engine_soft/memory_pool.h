@@ -1,5 +1,5 @@
-// The slots that records and tile lists are put in. Jobs on several threads take runs of slots from one counter; running
-// out is ordinary: the round is rasterized and the pool starts anew.
+// The slots that records and tile lists are put in. Jobs on several threads take runs of slots from one counter;
+// running out is ordinary: the round is rasterized and the pool starts anew.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// Raster of big triangles, one tile at a time: the tile's own form of the triangle, then blocks that are outside, inside or
-// crossed by an edge.
+// Raster of big triangles, one tile at a time: the tile's own form of the triangle, then blocks that are outside,
+// inside or crossed by an edge.
 #pragma once
 
 #include "gfx_subsystem/engine_soft/raster_small.h"
@@ -38,22 +38,27 @@ inline bool cross_edges(const BigTriangle& t, TileOrigin origin, TileTriangle& o
 inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
   const auto dx = static_cast<std::uint64_t>(std::int64_t{origin.x * kSubpixelOne + kSubpixelHalf - t.from_x});
   const auto dy = static_cast<std::uint64_t>(std::int64_t{origin.y * kSubpixelOne + kSubpixelHalf - t.from_y});
-  const auto shifted = [](std::uint64_t v, int by) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v) >> by); };
+  const auto shifted = [](std::uint64_t v, int by) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(v) >> by);
+  };
   std::uint32_t base[4], step_x[4], step_y[4];
   for (int k = 0; k < 4; ++k) {
-    base[k] = static_cast<std::uint32_t>(shifted(t.plane[k] + shifted(t.plane_dx[k] * dx + t.plane_dy[k] * dy, kSubpixelBits), 16));
+    base[k] = static_cast<std::uint32_t>(
+        shifted(t.plane[k] + shifted(t.plane_dx[k] * dx + t.plane_dy[k] * dy, kSubpixelBits), 16));
     step_x[k] = static_cast<std::uint32_t>(shifted(t.plane_dx[k] + 0x8000, 16));
     step_y[k] = static_cast<std::uint32_t>(shifted(t.plane_dy[k] + 0x8000, 16));
   }
   const auto low = [](const std::uint32_t* v) { return (v[2] & 0xFFFF) | v[0] << 16; };
-  out.planes = {base[3], step_x[3], step_y[3], base[1] & 0xFFFF, low(base), step_x[1] & 0xFFFF, low(step_x), step_y[1] & 0xFFFF, low(step_y)};
+  out.planes = {base[3],     step_x[3],          step_y[3],  base[1] & 0xFFFF, low(base), step_x[1] & 0xFFFF,
+                low(step_x), step_y[1] & 0xFFFF, low(step_y)};
   const auto shading = static_cast<Shading>(t.shading);
   if (shading == Shading::kConstant) out.planes.high = t.constant_pixel;
   if (shading != Shading::kPerspective) return;
   const double px = static_cast<double>(origin.x * kSubpixelOne + kSubpixelHalf - t.from_x) / kSubpixelOne;
   const double py = static_cast<double>(origin.y * kSubpixelOne + kSubpixelHalf - t.from_y) / kSubpixelOne;
   for (int k = 0; k < 4; ++k) {
-    out.perspective.value[k] = static_cast<float>(t.perspective[k] + t.perspective_dx[k] * px + t.perspective_dy[k] * py);
+    out.perspective.value[k] =
+        static_cast<float>(t.perspective[k] + t.perspective_dx[k] * px + t.perspective_dy[k] * py);
     out.perspective.dx[k] = static_cast<float>(t.perspective_dx[k]);
     out.perspective.dy[k] = static_cast<float>(t.perspective_dy[k]);
   }
@@ -94,7 +99,8 @@ std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const Til
   const I16 box = bits_as<I16>(splat_u(pair(t.x1 - t.x0, t.y1 - t.y0)));
   // Columns of blocks that the box touches, and those it holds from side to side.
   const std::uint32_t touched = bit_range(t.x0 / kBlockSize, t.x1 / kBlockSize);
-  const std::uint32_t held = touched & ~((t.x0 % kBlockSize != 0 ? 1u << (t.x0 / kBlockSize) : 0u) | (t.x1 % kBlockSize != kBlockSize - 1 ? 1u << (t.x1 / kBlockSize) : 0u));
+  const std::uint32_t held = touched & ~((t.x0 % kBlockSize != 0 ? 1u << (t.x0 / kBlockSize) : 0u) |
+                                         (t.x1 % kBlockSize != kBlockSize - 1 ? 1u << (t.x1 / kBlockSize) : 0u));
   std::uint32_t covered = 0;
   for (std::int32_t row = t.y0 / kBlockSize; row <= t.y1 / kBlockSize; ++row) {
     const std::int32_t y = row * kBlockSize;
@@ -105,7 +111,8 @@ std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const Til
     for (std::uint32_t left = whole; left != 0; left &= left - 1) {
       const int column = std::countr_zero(left);
       for (std::int32_t part = 0; part < kParts; ++part)
-        shader.template part<true>(I32{}, column * kBlockSize, y + part * kPartRows, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+        shader.template part<true>(I32{}, column * kBlockSize, y + part * kPartRows, tile,
+                                   block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
     }
     covered += static_cast<std::uint32_t>(std::popcount(whole) * kBlockPixels);
     for (std::uint32_t left = visit & ~whole; left != 0; left &= left - 1) {
@@ -114,13 +121,15 @@ std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const Til
       for (std::int32_t part = 0; part < kParts; ++part) {
         const std::int32_t py = y + part * kPartRows;
         I32 outside{};
-        for (int i = 0; i < t.edges; ++i) outside |= lanes.x * t.a[i] + lanes.y * t.b[i] + (t.edge[i] + t.a[i] * x + t.b[i] * py);
+        for (int i = 0; i < t.edges; ++i)
+          outside |= lanes.x * t.a[i] + lanes.y * t.b[i] + (t.edge[i] + t.a[i] * x + t.b[i] * py);
         const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(x - t.x0, py - t.y0)));
         const I32 mask = ~(outside >> 31) & (bits_as<I32>((xy >= 0) & (xy <= box)) == -1);
         const std::uint32_t bits = sign_bits(mask);
         if (bits == 0) continue;
         covered += static_cast<std::uint32_t>(std::popcount(bits));
-        shader.template part<false>(mask, x, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+        shader.template part<false>(mask, x, py, tile,
+                                    block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
       }
     }
   }

@@ -29,8 +29,10 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
   const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
   const bool clipped = (t.draw & kClippedBox) != 0;
   const std::int32_t x = t.x - origin.x, y = t.y - origin.y;  // of the record's origin pixel within the tile
-  const std::int32_t first_column = std::max(x, 0) / kBlockSize, last_column = std::min(x + t.last_x, kTileSize - 1) / kBlockSize;
-  const std::int32_t first_row = std::max(y, 0) / kBlockSize, last_row = std::min(y + t.last_y, kTileSize - 1) / kBlockSize;
+  const std::int32_t first_column = std::max(x, 0) / kBlockSize,
+                     last_column = std::min(x + t.last_x, kTileSize - 1) / kBlockSize;
+  const std::int32_t first_row = std::max(y, 0) / kBlockSize,
+                     last_row = std::min(y + t.last_y, kTileSize - 1) / kBlockSize;
   const LanePattern lanes = lane_pattern();
   const I16 step0 = bits_as<I16>(splat_u(pair(t.step[0][0], t.step[0][1])));
   const I16 step1 = bits_as<I16>(splat_u(pair(t.step[1][0], t.step[1][1])));
@@ -41,13 +43,15 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
       for (std::int32_t part = 0; part < kParts; ++part) {
         const std::int32_t px = column * kBlockSize - x, py = row * kBlockSize + part * kPartRows - y;
         const I16 xy = lanes.pairs + bits_as<I16>(splat_u(pair(px, py)));
-        const I32 outside = (dot_pairs(step0, xy) + t.edge[0]) | (dot_pairs(step1, xy) + t.edge[1]) | (dot_pairs(step2, xy) + t.edge[2]);
+        const I32 outside = (dot_pairs(step0, xy) + t.edge[0]) | (dot_pairs(step1, xy) + t.edge[1]) |
+                            (dot_pairs(step2, xy) + t.edge[2]);
         I32 mask = ~(outside >> 31);
         if (clipped) mask &= inside_box(xy, t.last_x, t.last_y);
         const std::uint32_t bits = sign_bits(mask);
         if (bits == 0) continue;
         covered += static_cast<std::uint32_t>(std::popcount(bits));
-        shader.template part<false>(mask, px, py, tile, block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
+        shader.template part<false>(mask, px, py, tile,
+                                    block_offset(column, row) + static_cast<std::size_t>(part * kLanes));
       }
     }
   }

@@ -8,8 +8,8 @@
 
 namespace usuzumi::gfx::soft {
 
-/// Where a vertex lies. The first six are the sides of the view volume; a triangle with one of them set at all corners is
-/// rejected. kOutsideNear and later make clipping necessary when set at any corner.
+/// Where a vertex lies. The first six are the sides of the view volume; a triangle with one of them set at all corners
+/// is rejected. kOutsideNear and later make clipping necessary when set at any corner.
 enum Outcode : std::uint32_t {
   kOutsideLeft = 1, kOutsideRight = 2, kOutsideBottom = 4, kOutsideTop = 8,
   kOutsideNear = 16, kOutsideFar = 32,
@@ -32,9 +32,9 @@ static_assert(sizeof(Vertex) == 32);
 /// How a triangle's colour is found; also the kind of an entry in a tile's list.
 enum class Shading : std::uint32_t { kConstant = 0, kAffine = 1, kPerspective = 2 };
 
-/// Depth and colour as linear functions of the pixel, counted from an origin pixel. Depth is 24.8, modulo 2^32. A colour is
-/// two words of two 16-bit lanes: "high" holds green (its upper lane, alpha's place, is unused), "low" blue and, above it,
-/// red, because then packing to XRGB8888 is 0xFF000000 | (high & 0xFF00) | (low >> 8 & 0xFF00FF).
+/// Depth and colour as linear functions of the pixel, counted from an origin pixel. Depth is 24.8, modulo 2^32. A
+/// colour is two words of two 16-bit lanes: "high" holds green (its upper lane, alpha's place, is unused), "low" blue
+/// and, above it, red, because then packing to XRGB8888 is 0xFF000000 | (high & 0xFF00) | (low >> 8 & 0xFF00FF).
 struct Planes {
   std::uint32_t depth, depth_dx, depth_dy;
   std::uint32_t high, low;            // kConstant: high is the packed pixel, the rest unused

@@ -1,5 +1,5 @@
-// A round: the draws and clears gathered from a command list until a table is full, the target changes or the list ends;
-// then geometry jobs fill bins and workers rasterize tile by tile. Several rounds give the same bytes as one.
+// A round: the draws and clears gathered from a command list until a table is full, the target changes or the list
+// ends; then geometry jobs fill bins and workers rasterize tile by tile. Several rounds give the same bytes as one.
 #pragma once
 
 #include "gfx_subsystem/engine_soft/binner.h"
@@ -75,8 +75,8 @@ struct Round {
 };
 
 /// Targets of fewer bytes are not streamed: they stay in a host's last cache until the display reads them and the next
-/// frame overwrites them, and several cores store there faster than into memory. 800x480 with depth is 3 MB, 1920x720 is
-/// 11 MB; by measuring, no byte depends on it.
+/// frame overwrites them, and several cores store there faster than into memory. 800x480 with depth is 3 MB, 1920x720
+/// is 11 MB; by measuring, no byte depends on it.
 inline constexpr std::size_t kStreamingBytes = 8u << 20;
 
 inline constexpr std::uint32_t kMaxDraws = 256;       // fits the 15 bits of SmallTriangle::draw

@@ -7,7 +7,8 @@
 namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
 namespace {
 
-/// A part is the kLanes pixels that one vector holds: a block is kParts of them, each kPartRows rows of kBlockSize pixels.
+/// A part is the kLanes pixels that one vector holds: a block is kParts of them, each kPartRows rows of kBlockSize
+/// pixels.
 inline constexpr int kPartRows = kLanes / kBlockSize;
 inline constexpr int kParts = kBlockPixels / kLanes;
 
@@ -36,8 +37,8 @@ struct TileBuffers {
   std::uint32_t* depth;
 };
 
-/// Planes are split in two: what depends on the lane is added up once per triangle, what depends on the part is one scalar.
-/// The sums are modulo their width, so the split does not change them.
+/// Planes are split in two: what depends on the lane is added up once per triangle, what depends on the part is one
+/// scalar. The sums are modulo their width, so the split does not change them.
 template <Shading kShading, bool kDepth, bool kRgb565>
 class Shader {
  public:
@@ -47,17 +48,19 @@ class Shader {
     if constexpr (kDepth) depth_ = p_.depth + bits_as<U32>(lanes.x) * p_.depth_dx + bits_as<U32>(lanes.y) * p_.depth_dy;
     if constexpr (kShading == Shading::kAffine) {
       const auto plane = [&](std::uint32_t base, std::uint32_t dx, std::uint32_t dy) {
-        return bits_as<U16>(splat_u(base)) + bits_as<U16>(splat_u(dx)) * lanes.x_twice + bits_as<U16>(splat_u(dy)) * lanes.y_twice;
+        return bits_as<U16>(splat_u(base)) + bits_as<U16>(splat_u(dx)) * lanes.x_twice +
+               bits_as<U16>(splat_u(dy)) * lanes.y_twice;
       };
       high_ = plane(p_.high, p_.high_dx, p_.high_dy);
       low_ = plane(p_.low, p_.low_dx, p_.low_dy);
     }
   }
 
-  /// Writes the lanes of `mask`, or all. (x, y) is the part's first pixel, counted from the planes' origin; `at` its place in
-  /// the tile.
+  /// Writes the lanes of `mask`, or all. (x, y) is the part's first pixel, counted from the planes' origin; `at` its
+  /// place in the tile.
   template <bool kAll>
-  [[gnu::always_inline]] void part(I32 mask, std::int32_t x, std::int32_t y, const TileBuffers& tile, std::size_t at) const {
+  [[gnu::always_inline]] void part(I32 mask, std::int32_t x, std::int32_t y, const TileBuffers& tile,
+                                   std::size_t at) const {
     const auto ux = static_cast<std::uint32_t>(x), uy = static_cast<std::uint32_t>(y);
     if constexpr (kDepth) {
       const U32 depth = (depth_ + (ux * p_.depth_dx + uy * p_.depth_dy)) >> 8;
@@ -76,7 +79,8 @@ class Shader {
     if constexpr (kShading == Shading::kAffine) {
       const auto ux = static_cast<std::uint32_t>(x), uy = static_cast<std::uint32_t>(y);
       const std::uint32_t high = ux * p_.high_dx + uy * p_.high_dy;  // its upper lane is not used
-      const std::uint32_t low = ((ux * (p_.low_dx & 0xFFFF) + uy * (p_.low_dy & 0xFFFF)) & 0xFFFF) | (ux * (p_.low_dx >> 16) + uy * (p_.low_dy >> 16)) << 16;
+      const std::uint32_t low = ((ux * (p_.low_dx & 0xFFFF) + uy * (p_.low_dy & 0xFFFF)) & 0xFFFF) |
+                                (ux * (p_.low_dx >> 16) + uy * (p_.low_dy >> 16)) << 16;
       return pack(bits_as<U32>(high_ + bits_as<U16>(splat_u(high))), bits_as<U32>(low_ + bits_as<U16>(splat_u(low))));
     }
     return perspective_colour(x, y);
@@ -85,7 +89,9 @@ class Shader {
   [[gnu::always_inline]] U32 perspective_colour(std::int32_t x, std::int32_t y) const {
     const LanePattern lanes = lane_pattern();
     const F32 xs = __builtin_convertvector(lanes.x + x, F32), ys = __builtin_convertvector(lanes.y + y, F32);
-    const auto plane = [&](int k) { return (perspective_->value[k] + perspective_->dy[k] * ys) + perspective_->dx[k] * xs; };
+    const auto plane = [&](int k) {
+      return (perspective_->value[k] + perspective_->dy[k] * ys) + perspective_->dx[k] * xs;
+    };
     const F32 w = 1.0f / plane(0);
     U32 lane[3];
     for (int k = 0; k < 3; ++k) {

@@ -1,8 +1,8 @@
 // Vectors of the compiler's own (GCC and Clang vector extensions), in the width of the kernel variant being compiled.
 // Included only by the kernel sources, inside the target attributes they set; see kernels.inc.h.
 //
-// Every operation is exact integer arithmetic or one IEEE operation per lane, so the width never changes a result. The few
-// intrinsics below replace what the vector extensions cannot say; each has a plain fallback with the same result.
+// Every operation is exact integer arithmetic or one IEEE operation per lane, so the width never changes a result. The
+// few intrinsics below replace what the vector extensions cannot say; each has a plain fallback with the same result.
 #pragma once
 
 #include <cstdint>

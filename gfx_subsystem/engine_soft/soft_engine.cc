@@ -13,15 +13,17 @@ constexpr std::size_t kCacheLine = 64;
 constexpr std::uint32_t kMaxJobs = 96;
 
 /// Primitives after which the round's `job`-th job is closed. Small ones first, so that a small scene too is shared out
-/// among threads; they double until a job's vertices just stay in the nearer caches, so that the table serves large scenes.
-/// Found by measuring; no byte depends on it.
+/// among threads; they double until a job's vertices just stay in the nearer caches, so that the table serves large
+/// scenes. Found by measuring; no byte depends on it.
 constexpr std::uint32_t primitives_in_job(std::uint32_t job) {
   const std::uint32_t doublings = job / 8;
   return doublings >= 4 ? 8192 : 512u << doublings;
 }
 
 TileGrid grid_of(std::uint32_t width, std::uint32_t height) {
-  const auto tiles = [](std::uint32_t pixels) { return (static_cast<std::int32_t>(pixels) + kTileSize - 1) / kTileSize; };
+  const auto tiles = [](std::uint32_t pixels) {
+    return (static_cast<std::int32_t>(pixels) + kTileSize - 1) / kTileSize;
+  };
   return {tiles(width), tiles(height)};
 }
 
@@ -76,10 +78,11 @@ SoftEngine::SoftEngine(const Config& config)
 std::size_t SoftEngine::minimum_work_bytes(std::uint32_t width, std::uint32_t height) {
   const std::uint32_t tiles = grid_of(width, height).count();
   // The tables' least sizes; their shares of a memory this small are no larger than what the pool leaves.
-  const std::size_t tables = kMinVertexCapacity * sizeof(Vertex) + sizeof(DrawSetup) + sizeof(ClearOperation) + 2 * sizeof(WorkItem) +
-                             sizeof(Job) + tiles * sizeof(TileList) + 7 * kCacheLine;
+  const std::size_t tables = kMinVertexCapacity * sizeof(Vertex) + sizeof(DrawSetup) + sizeof(ClearOperation) +
+                             2 * sizeof(WorkItem) + sizeof(Job) + tiles * sizeof(TileList) + 7 * kCacheLine;
   const std::size_t buffers = 2 * kTilePixels * sizeof(std::uint32_t);
-  // Shares: 1/8 vertices, 1/64 draws, 1/256 clears, 1/64 items, 1/16 jobs: less than a quarter; so 4/3 of the rest is enough.
+  // Shares: 1/8 vertices, 1/64 draws, 1/256 clears, 1/64 items, 1/16 jobs: less than a quarter; so 4/3 of the rest is
+  // enough.
   return (tables + buffers + minimum_slots(tiles) * kSlotBytes) * 4 / 3 + kCacheLine;
 }
 
@@ -108,16 +111,19 @@ Status SoftEngine::bind_target(const EngineState& s) {
   t.depth = s.depth_memory.data();
   t.depth_stride = s.depth_target.stride_bytes;
   t.depth16 = s.depth_target.format == command::DepthFormat::kUnorm16;
-  const auto lines = [](const std::byte* plane, std::uint32_t stride) { return (reinterpret_cast<std::uintptr_t>(plane) | stride) % kCacheLine == 0; };
-  t.streaming = s.colour_memory.size() + s.depth_memory.size() >= streaming_bytes_ && !t.rgb565 && t.width % 16 == 0 && lines(t.colour, t.colour_stride) &&
-                lines(t.depth, t.depth_stride);
+  const auto lines = [](const std::byte* plane, std::uint32_t stride) {
+    return (reinterpret_cast<std::uintptr_t>(plane) | stride) % kCacheLine == 0;
+  };
+  t.streaming = s.colour_memory.size() + s.depth_memory.size() >= streaming_bytes_ && !t.rgb565 && t.width % 16 == 0 &&
+                lines(t.colour, t.colour_stride) && lines(t.depth, t.depth_stride);
   if (t == round_.target) return ok_status();
   finish_round();
   round_ = {};
   round_.grid = grid_of(s.colour_target.width, s.colour_target.height);
   if (!lay_out_memory()) {
     round_ = {};
-    return {StatusCode::kResourceExhausted, "the engine's working memory is too small for this target; see minimum_work_bytes", 0};
+    return {StatusCode::kResourceExhausted,
+            "the engine's working memory is too small for this target; see minimum_work_bytes", 0};
   }
   round_.target = t;
   return ok_status();
@@ -150,7 +156,8 @@ bool SoftEngine::lay_out_memory() {
   take(lists_, std::size_t{layout.jobs} * tiles);
   const std::size_t padding = kCacheLine;
   if (!fits || arena.available() < minimum_slots(tiles) * std::size_t{kSlotBytes} + padding) return false;
-  const auto slots = static_cast<std::uint32_t>(std::min<std::size_t>((arena.available() - padding) / kSlotBytes, kEntrySlotMask));
+  const auto slots =
+      static_cast<std::uint32_t>(std::min<std::size_t>((arena.available() - padding) / kSlotBytes, kEntrySlotMask));
   pool_.reset(arena.allocate<Slot>(slots, kCacheLine).data(), slots);
   round_.draws = draws_.data();
   round_.clears = clears_.data();
@@ -168,7 +175,8 @@ Status SoftEngine::clear(const EngineState& s, const command::Clear& c) {
   if (clear_count_ == clears_.size() || item_count_ == items_.size()) finish_round();
   ClearOperation& op = clears_[clear_count_];
   op.rect = {static_cast<std::int32_t>(s.scissor.x), static_cast<std::int32_t>(s.scissor.y),
-             static_cast<std::int32_t>(s.scissor.x + s.scissor.width), static_cast<std::int32_t>(s.scissor.y + s.scissor.height)};
+             static_cast<std::int32_t>(s.scissor.x + s.scissor.width),
+             static_cast<std::int32_t>(s.scissor.y + s.scissor.height)};
   op.colour = (c.planes & command::kClearColour) != 0;
   op.depth = (c.planes & command::kClearDepth) != 0;
   op.pixel = pack_pixel(s.colour_target.format, c.colour);
@@ -311,7 +319,8 @@ void SoftEngine::share_out(std::uint32_t parts) {
 template <void (SoftEngine::*work)(std::uint32_t)>
 void SoftEngine::run_workers(bool alone) {
   if (worker_count_ > 1 && !alone)
-    runner_->run(worker_count_, [](void* engine, std::uint32_t w) { (static_cast<SoftEngine*>(engine)->*work)(w); }, this);
+    runner_->run(
+        worker_count_, [](void* engine, std::uint32_t w) { (static_cast<SoftEngine*>(engine)->*work)(w); }, this);
   else
     (this->*work)(0);
 }

@@ -1,5 +1,5 @@
-// The software 3D engine: executes command lists into VRAM, the same bytes on every processor, with any number of threads,
-// any SIMD width and any amount of working memory. How: conventions.h (numbers and rules), round.h (the flow).
+// The software 3D engine: executes command lists into VRAM, the same bytes on every processor, with any number of
+// threads, any SIMD width and any amount of working memory. How: conventions.h (numbers and rules), round.h (the flow).
 #pragma once
 
 #include <atomic>

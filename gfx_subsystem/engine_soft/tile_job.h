@@ -26,7 +26,8 @@ template <class Visit>
 
 inline std::uint32_t entry_kind(std::uint32_t entry) { return entry >> kEntryKindShift; }
 inline const ClearOperation* as_clear(const Round& r, std::uint32_t entry) {
-  return entry_kind(entry) == static_cast<std::uint32_t>(EntryKind::kClear) ? &r.clears[entry & kEntrySlotMask] : nullptr;
+  return entry_kind(entry) == static_cast<std::uint32_t>(EntryKind::kClear) ? &r.clears[entry & kEntrySlotMask]
+                                                                            : nullptr;
 }
 
 /// What the entries at the head of a tile's lists make needless: clears that fill the tile before anything is drawn.
@@ -65,7 +66,8 @@ inline void clear_in_place(const Round& r, const TileExtent& extent, std::uint32
 }
 
 template <bool kRgb565>
-std::uint64_t raster_entries(const Round& r, const TileExtent& extent, const TileBuffers& buffers, std::uint32_t tile, std::uint32_t jobs) {
+std::uint64_t raster_entries(const Round& r, const TileExtent& extent, const TileBuffers& buffers, std::uint32_t tile,
+                             std::uint32_t jobs) {
   std::uint64_t covered = 0;
   for_each_entry(r, tile, jobs, [&](std::uint32_t entry) {
     const std::uint32_t slot = entry & kEntrySlotMask;
@@ -110,7 +112,8 @@ void run_tile(const Round& r, Worker& worker, std::uint32_t tile, std::uint32_t 
   const TileBuffers buffers{worker.colour, worker.depth};
   if (!prologue.colour_filled) load_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth && !prologue.depth_filled) load_plane(depth_plane(r), extent, buffers.depth);
-  worker.pixels_tested += r.target.rgb565 ? raster_entries<true>(r, extent, buffers, tile, jobs) : raster_entries<false>(r, extent, buffers, tile, jobs);
+  worker.pixels_tested += r.target.rgb565 ? raster_entries<true>(r, extent, buffers, tile, jobs)
+                                          : raster_entries<false>(r, extent, buffers, tile, jobs);
   store_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth) store_plane(depth_plane(r), extent, buffers.depth);
   finish_streaming();

@@ -18,7 +18,8 @@ struct TileExtent {
 };
 
 inline TileExtent tile_extent(const Round& r, std::uint32_t tile) {
-  const auto column = static_cast<std::int32_t>(tile) % r.grid.columns, row = static_cast<std::int32_t>(tile) / r.grid.columns;
+  const auto column = static_cast<std::int32_t>(tile) % r.grid.columns,
+             row = static_cast<std::int32_t>(tile) / r.grid.columns;
   const TileOrigin o{column * kTileSize, row * kTileSize};
   return {o, std::min(kTileSize, r.target.width - o.x), std::min(kTileSize, r.target.height - o.y)};
 }
@@ -35,7 +36,9 @@ struct Plane {
     return memory + stride * static_cast<std::size_t>(o.y + row) + pixel_bytes() * static_cast<std::size_t>(o.x);
   }
 };
-inline Plane colour_plane(const Round& r) { return {r.target.colour, r.target.colour_stride, r.target.rgb565, ~0u, r.target.streaming}; }
+inline Plane colour_plane(const Round& r) {
+  return {r.target.colour, r.target.colour_stride, r.target.rgb565, ~0u, r.target.streaming};
+}
 inline Plane depth_plane(const Round& r) {
   return {r.target.depth, r.target.depth_stride, r.target.depth16, 0xFFFFFFu, r.target.streaming && !r.target.depth16};
 }
@@ -72,7 +75,8 @@ inline void load_plane(const Plane& plane, const TileExtent& tile, std::uint32_t
     }
     for (std::int32_t x = whole * kBlockSize; x < tile.width; ++x) {
       const std::byte* p = from + plane.pixel_bytes() * static_cast<std::size_t>(x);
-      block_row(buffer, y, whole)[x % kBlockSize] = plane.narrow ? load<std::uint16_t>(p) : load<std::uint32_t>(p) & plane.mask;
+      block_row(buffer, y, whole)[x % kBlockSize] =
+          plane.narrow ? load<std::uint16_t>(p) : load<std::uint32_t>(p) & plane.mask;
     }
   }
 }
@@ -112,8 +116,8 @@ inline void fill_plane(const Plane& plane, const PixelRect& rect, std::uint32_t 
 
 /// The part of a clear within a tile, counted from the tile's first pixel.
 inline PixelRect within_tile(const PixelRect& r, const TileExtent& tile) {
-  return {std::max(r.x0 - tile.origin.x, 0), std::max(r.y0 - tile.origin.y, 0), std::min(r.x1 - tile.origin.x, tile.width),
-          std::min(r.y1 - tile.origin.y, tile.height)};
+  return {std::max(r.x0 - tile.origin.x, 0), std::max(r.y0 - tile.origin.y, 0),
+          std::min(r.x1 - tile.origin.x, tile.width), std::min(r.y1 - tile.origin.y, tile.height)};
 }
 inline bool fills_tile(const PixelRect& in_tile, const TileExtent& tile) {
   return in_tile.x0 == 0 && in_tile.y0 == 0 && in_tile.x1 == tile.width && in_tile.y1 == tile.height;

@@ -1,5 +1,5 @@
-// Triangle set-up: cull, bounding box, edge functions and planes, and the record put into the bins. See conventions.h for
-// the signs and the fill rule.
+// Triangle set-up: cull, bounding box, edge functions and planes, and the record put into the bins. See conventions.h
+// for the signs and the fill rule.
 //
 // Planes are worked out in double precision. Their numerators (differences of 24-bit values times differences of 23-bit
 // positions) come out exact to a part in 2^52, so that even at the far end of a sliver the error stays below a quarter
@@ -52,9 +52,10 @@ class TriangleSetup {
       : d_(draw), draw_index_(static_cast<std::uint16_t>(draw_index)), binner_(binner),
         clip_first_{draw.clip.x0, draw.clip.y0, 0, 0}, clip_end_{draw.clip.x1, draw.clip.y1, 0, 0} {}
 
-  /// Fills in `out` and tells whether it is a candidate; without branches, since which triangles are is a matter of luck.
-  /// `drawn` counts those with area that are not culled.
-  [[gnu::always_inline]] bool examine(const Vertex& a, const Vertex& b, const Vertex& c, bool may_cull, Candidate& out, std::uint32_t& drawn) const {
+  /// Fills in `out` and tells whether it is a candidate; without branches, since which triangles are is a matter of
+  /// luck. `drawn` counts those with area that are not culled.
+  [[gnu::always_inline]] bool examine(const Vertex& a, const Vertex& b, const Vertex& c, bool may_cull, Candidate& out,
+                                      std::uint32_t& drawn) const {
     const std::int64_t x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y;
     const std::int64_t area = x1 * y2 - x2 * y1;
     const bool negative = area < 0;
@@ -66,7 +67,8 @@ class TriangleSetup {
     const I32x4 p = position_of(a), q = position_of(b), r = position_of(c);
     const I32x4 low = least(least(p, q), r), high = most(most(p, q), r);
     // First pixel centre inside and first beyond. A centre exactly on the right or bottom extreme is never covered.
-    const I32x4 first = (low + (kSubpixelHalf - 1)) >> kSubpixelBits, end = (high + (kSubpixelHalf - 1)) >> kSubpixelBits;
+    const I32x4 first = (low + (kSubpixelHalf - 1)) >> kSubpixelBits,
+                end = (high + (kSubpixelHalf - 1)) >> kSubpixelBits;
     const I32x4 first_in = most(first, clip_first_), end_in = least(end, clip_end_);
     store(&out.box, __builtin_shufflevector(first_in, end_in, 0, 1, 4, 5));
     const I32x4 cut = (first_in - first) | (end - end_in), extent = high - low;
@@ -89,7 +91,8 @@ class TriangleSetup {
   [[gnu::always_inline]] Shading choose_shading(const Vertex& a, const Vertex& b, const Vertex& c) const {
     if (d_.flat) return Shading::kConstant;
     const auto range = [](float p, float q, float r) { return std::max({p, q, r}) - std::min({p, q, r}); };
-    const float colour_range = std::max({range(a.red, b.red, c.red), range(a.green, b.green, c.green), range(a.blue, b.blue, c.blue)});
+    const float colour_range =
+        std::max({range(a.red, b.red, c.red), range(a.green, b.green, c.green), range(a.blue, b.blue, c.blue)});
     if (colour_range == 0) return Shading::kConstant;
     const float u_min = std::min({a.u, b.u, c.u}), u_max = std::max({a.u, b.u, c.u});
     return affine_is_exact_enough(u_min, u_max, colour_range) ? Shading::kAffine : Shading::kPerspective;
@@ -113,14 +116,16 @@ class TriangleSetup {
     return __builtin_convertvector(a, F64x4) * F64x4{1, 1, 1, 256};
   }
   [[gnu::always_inline]] F64x4 halves() const {
-    return F64x4{static_cast<double>(d_.lane_half[0]), static_cast<double>(d_.lane_half[1]), static_cast<double>(d_.lane_half[2]), 128};
+    return F64x4{static_cast<double>(d_.lane_half[0]), static_cast<double>(d_.lane_half[1]),
+                 static_cast<double>(d_.lane_half[2]), 128};
   }
   [[gnu::always_inline]] static Steps attribute_steps(const Candidate& in) {
     Steps s = steps(in, attributes(*in.v[0]), attributes(*in.v[1]), attributes(*in.v[2]));
     if (in.area < (in.small ? kSteepAreaSmall : kSteepAreaBig)) flatten_steep(s);
     return s;
   }
-  /// Larger areas cannot have a step of kMaxStep: 2^32 of depth times 2^14 (or 2^23) of position, twice, times 256 per pixel.
+  /// Larger areas cannot have a step of kMaxStep: 2^32 of depth times 2^14 (or 2^23) of position, twice, times 256 per
+  /// pixel.
   static constexpr std::int64_t kSteepAreaSmall = std::int64_t{1} << 13, kSteepAreaBig = std::int64_t{1} << 22;
   [[gnu::always_inline]] static void flatten_steep(Steps& s) {
     const F64x4 x = s.dx < 0.0 ? -s.dx : s.dx, y = s.dy < 0.0 ? -s.dy : s.dy;
@@ -144,7 +149,9 @@ class TriangleSetup {
   }
 
   std::uint32_t constant_pixel(const Vertex& v) const {
-    const auto lane = [&](float value, int k) { return static_cast<std::uint32_t>(round_to_int(value)) + d_.lane_half[k]; };
+    const auto lane = [&](float value, int k) {
+      return static_cast<std::uint32_t>(round_to_int(value)) + d_.lane_half[k];
+    };
     const std::uint32_t r = lane(v.red, 0), g = lane(v.green, 1), b = lane(v.blue, 2);
     if (d_.rgb565) return (r & 0xF800) | (g & 0xFC00) >> 5 | (b & 0xF800) >> 11;
     return 0xFF000000u | (r & 0xFF00) << 8 | (g & 0xFF00) | (b & 0xFF00) >> 8;
@@ -158,11 +165,14 @@ class TriangleSetup {
     return (static_cast<std::uint32_t>(kind) + static_cast<std::uint32_t>(shading)) << kEntryKindShift | slot;
   }
 
-  [[gnu::always_inline]] static std::int32_t fill_rule(std::int32_t a, std::int32_t b) { return a > 0 || (a == 0 && b > 0) ? 0 : 1; }
+  [[gnu::always_inline]] static std::int32_t fill_rule(std::int32_t a, std::int32_t b) {
+    return a > 0 || (a == 0 && b > 0) ? 0 : 1;
+  }
 
   /// Four words of a SmallTriangle at a time.
   [[gnu::always_inline]] bool put_small(const Candidate& in, Shading shading, const Vertex& provoking) {
-    const std::int32_t origin_x = in.box.x0 * kSubpixelOne + kSubpixelHalf, origin_y = in.box.y0 * kSubpixelOne + kSubpixelHalf;
+    const std::int32_t origin_x = in.box.x0 * kSubpixelOne + kSubpixelHalf,
+                       origin_y = in.box.y0 * kSubpixelOne + kSubpixelHalf;
 
     // Corners' x and y, and those of the next corner: edges 0-1, 1-2, 2-0.
     const I32x4 p = position_of(*in.v[0]), q = position_of(*in.v[1]), r = position_of(*in.v[2]);
@@ -183,7 +193,8 @@ class TriangleSetup {
     store(record, __builtin_shufflevector(edge, step, 0, 1, 2, 4));
 
     const Vertex& v0 = *in.v[0];
-    const double from_x = static_cast<double>(origin_x - v0.x) / kSubpixelOne, from_y = static_cast<double>(origin_y - v0.y) / kSubpixelOne;
+    const double from_x = static_cast<double>(origin_x - v0.x) / kSubpixelOne,
+                 from_y = static_cast<double>(origin_y - v0.y) / kSubpixelOne;
     const Steps s = attribute_steps(in);
     const I32x4 base = low_words(round_to_words(attributes(v0) + halves() + s.dx * from_x + s.dy * from_y));
     const I32x4 dx = low_words(round_to_words(s.dx)), dy = low_words(round_to_words(s.dy));
@@ -191,8 +202,10 @@ class TriangleSetup {
     const I32x4 step1_depth = __builtin_shufflevector(step, base, 1, 7, 1, 7);
     store(record + 16, __builtin_shufflevector(step1_depth, depth_steps, 0, 1, 4, 6));
     const I32x4 place{static_cast<std::int32_t>(pair(in.box.x0, in.box.y0)),
-                      static_cast<std::int32_t>(static_cast<std::uint32_t>((in.box.x1 - 1 - in.box.x0) | (in.box.y1 - 1 - in.box.y0) << 8) |
-                                                static_cast<std::uint32_t>(draw_index_ | (in.box_cuts ? kClippedBox : 0)) << 16), 0, 0};
+                      static_cast<std::int32_t>(
+                          static_cast<std::uint32_t>((in.box.x1 - 1 - in.box.x0) | (in.box.y1 - 1 - in.box.y0) << 8) |
+                          static_cast<std::uint32_t>(draw_index_ | (in.box_cuts ? kClippedBox : 0)) << 16),
+                      0, 0};
     if (shading == Shading::kConstant) {
       store(record + 32, I32x4{static_cast<std::int32_t>(constant_pixel(provoking)), 0, 0, 0});
       store(record + 48, __builtin_shufflevector(place, place, 0, 0, 0, 1));
@@ -239,7 +252,8 @@ class TriangleSetup {
       const Vertex &p = *in.v[i], &q = *in.v[i < 2 ? i + 1 : 0];
       t.a[i] = p.y - q.y;
       t.b[i] = q.x - p.x;
-      t.edge[i] = std::int64_t{t.a[i]} * (kSubpixelHalf - p.x) + std::int64_t{t.b[i]} * (kSubpixelHalf - p.y) - fill_rule(t.a[i], t.b[i]);
+      t.edge[i] = std::int64_t{t.a[i]} * (kSubpixelHalf - p.x) + std::int64_t{t.b[i]} * (kSubpixelHalf - p.y) -
+                  fill_rule(t.a[i], t.b[i]);
     }
     t.x = static_cast<std::uint16_t>(in.box.x0);
     t.y = static_cast<std::uint16_t>(in.box.y0);

@@ -21,7 +21,8 @@ struct LaneColour {
 };
 
 template <class T>
-[[gnu::always_inline]] inline T fetch(const std::byte* stream, std::uint32_t stride, std::uint32_t vertex, std::uint32_t offset) {
+[[gnu::always_inline]] inline T fetch(const std::byte* stream, std::uint32_t stride, std::uint32_t vertex,
+                                      std::uint32_t offset) {
   T v;
   std::memcpy(&v, stream + std::size_t{stride} * vertex + offset, sizeof v);
   return v;
@@ -31,7 +32,8 @@ template <class T>
   U32 c = splat_u(d.streams.constant_colour.bits);
   if (d.colours != nullptr)
     for (int l = 0; l < kLanes; ++l) c[l] = fetch<std::uint32_t>(d.colours, d.streams.colour_stride, vertex[l], 0);
-  return {__builtin_convertvector(bits_as<I32>(c & 0xFF), F32), __builtin_convertvector(bits_as<I32>(c >> 8 & 0xFF), F32),
+  return {__builtin_convertvector(bits_as<I32>(c & 0xFF), F32),
+          __builtin_convertvector(bits_as<I32>(c >> 8 & 0xFF), F32),
           __builtin_convertvector(bits_as<I32>(c >> 16 & 0xFF), F32)};
 }
 
@@ -72,10 +74,13 @@ struct LanePosition {
   const auto outside = [](I32 inside, std::uint32_t code) { return ~inside & static_cast<std::int32_t>(code); };
   const auto magnitude = [](F32 v) { return bits_as<F32>(bits_as<I32>(v) & 0x7FFFFFFF); };
   const F32 ax = magnitude(p.x), ay = magnitude(p.y), az = magnitude(p.z);
-  return outside(p.x >= -p.w, kOutsideLeft) | outside(p.x <= p.w, kOutsideRight) | outside(p.y >= -p.w, kOutsideBottom) |
-         outside(p.y <= p.w, kOutsideTop) | outside(p.z >= -p.w, kOutsideNear) | outside(p.z <= p.w, kOutsideFar) |
+  return outside(p.x >= -p.w, kOutsideLeft) | outside(p.x <= p.w, kOutsideRight) |
+         outside(p.y >= -p.w, kOutsideBottom) | outside(p.y <= p.w, kOutsideTop) | outside(p.z >= -p.w, kOutsideNear) |
+         outside(p.z <= p.w, kOutsideFar) |
          outside((ax <= p.w * d.guard[0]) & (ay <= p.w * d.guard[1]) & (p.w >= kMinClipW), kOutsideGuard) |
-         outside((ax <= kMaxClipValue) & (ay <= kMaxClipValue) & (az <= kMaxClipValue) & (magnitude(p.w) <= kMaxClipValue), kNotANumber);
+         outside(
+             (ax <= kMaxClipValue) & (ay <= kMaxClipValue) & (az <= kMaxClipValue) & (magnitude(p.w) <= kMaxClipValue),
+             kNotANumber);
 }
 
 /// Writes four fields of `count` <= kLanes vertices, `offset` bytes into each.
@@ -89,8 +94,9 @@ struct LanePosition {
     const F32x4 p = four(a, part), q = four(b, part), r = four(c, part), s = four(d, part);
     const F32x4 pq_low = __builtin_shufflevector(p, q, 0, 4, 1, 5), pq_high = __builtin_shufflevector(p, q, 2, 6, 3, 7);
     const F32x4 rs_low = __builtin_shufflevector(r, s, 0, 4, 1, 5), rs_high = __builtin_shufflevector(r, s, 2, 6, 3, 7);
-    const F32x4 row[4] = {__builtin_shufflevector(pq_low, rs_low, 0, 1, 4, 5), __builtin_shufflevector(pq_low, rs_low, 2, 3, 6, 7),
-                          __builtin_shufflevector(pq_high, rs_high, 0, 1, 4, 5), __builtin_shufflevector(pq_high, rs_high, 2, 3, 6, 7)};
+    const F32x4 row[4] = {
+        __builtin_shufflevector(pq_low, rs_low, 0, 1, 4, 5), __builtin_shufflevector(pq_low, rs_low, 2, 3, 6, 7),
+        __builtin_shufflevector(pq_high, rs_high, 0, 1, 4, 5), __builtin_shufflevector(pq_high, rs_high, 2, 3, 6, 7)};
     for (int l = 0; l < 4; ++l)
       if (k + l < count) store(reinterpret_cast<std::byte*>(out + k + l) + offset, row[l]);
   };
@@ -103,13 +109,15 @@ struct LanePosition {
 }
 
 /// Vertices vertex[0 .. kLanes - 1] of the streams; the first `count` are written.
-[[gnu::always_inline]] inline void transform_lanes(const DrawSetup& d, const std::uint32_t* vertex, int count, Vertex* out) {
+[[gnu::always_inline]] inline void transform_lanes(const DrawSetup& d, const std::uint32_t* vertex, int count,
+                                                   Vertex* out) {
   LaneColour colour = base_colour(d, vertex);
   if (d.normals != nullptr) light(d, vertex, colour);
   const LanePosition p = to_clip(d, vertex);
   const F32 u = 1.0f / p.w;
   const F32 depth = at_most(at_least((p.z * u) * d.scale[2] + d.offset[2], 0), 1) * d.depth_limit;
-  store_fields(out, count, 0, colour.red * d.lane_scale[0], colour.green * d.lane_scale[1], colour.blue * d.lane_scale[2], depth);
+  store_fields(out, count, 0, colour.red * d.lane_scale[0], colour.green * d.lane_scale[1],
+               colour.blue * d.lane_scale[2], depth);
   store_fields(out, count, 16, bits_as<F32>(round_lanes((p.x * u) * d.scale[0] + d.offset[0])),
                bits_as<F32>(round_lanes((p.y * u) * d.scale[1] + d.offset[1])), u, bits_as<F32>(outcodes(d, p)));
 }

@@ -65,7 +65,8 @@ Status DisplayDriver::probe() {
   return {StatusCode::kUnavailable, "no display controller answers; check its base address in the memory map", base_};
 }
 
-// ------------------------------------------------------------------------------------------------------- mode, on and off
+// ------------------------------------------------------------------------------------------------------- mode, on and
+// off
 
 Status DisplayDriver::set_mode(const DisplayMode& mode) {
   if (mode.width == 0 || mode.height == 0) return invalid("display size must not be 0");
@@ -91,15 +92,16 @@ Status DisplayDriver::enable() {
 void DisplayDriver::disable() { set_bits(Dcm1::kOffset, Dcm1::kDen.mask(), false); }
 bool DisplayDriver::running() { return Dst::kRun.get(read(Dst::kOffset)) != 0; }
 
-// --------------------------------------------------------------------------------------------------------------- layers
+// ---------------------------------------------------------------------------------------------------------------
+// layers
 
 Status DisplayDriver::configure_layer(std::uint32_t layer, const LayerConfig& c) {
   if (const Status status = check_layer(layer, c); !status.ok()) return status;
   const auto reg = [layer](std::uint32_t offset) { return layer_register(layer, offset); };
   const Locked lock(*this);
-  write(reg(LayerMode::kOffset), LayerMode::kFmt.put(static_cast<std::uint32_t>(c.format)) |
-                                     LayerMode::kKey.put(c.colour_key_enabled ? 1 : 0) |
-                                     LayerMode::kPpa.put(c.per_pixel_alpha ? 1 : 0) | LayerMode::kGa.put(c.global_alpha));
+  write(reg(LayerMode::kOffset),
+        LayerMode::kFmt.put(static_cast<std::uint32_t>(c.format)) | LayerMode::kKey.put(c.colour_key_enabled ? 1 : 0) |
+            LayerMode::kPpa.put(c.per_pixel_alpha ? 1 : 0) | LayerMode::kGa.put(c.global_alpha));
   write(reg(LayerStride::kOffset), c.stride_bytes);
   write(reg(LayerBank0::kOffset), c.bank_address[0]);
   write(reg(LayerBank1::kOffset), c.bank_address[1]);
@@ -143,7 +145,8 @@ std::uint32_t DisplayDriver::shown_bank(std::uint32_t layer) {
   return layer < kLayerCount ? LayerFlip::kShown.get(read(layer_register(layer, LayerFlip::kOffset))) : 0;
 }
 
-// --------------------------------------------------------------------------------------------------------------- cursor
+// ---------------------------------------------------------------------------------------------------------------
+// cursor
 
 Status DisplayDriver::set_cursor_image(BusAddress address) {
   if (address % 4 != 0) return invalid("the cursor image must lie at a multiple of 4");
@@ -159,9 +162,12 @@ Status DisplayDriver::move_cursor(std::int32_t x, std::int32_t y) {
 
 void DisplayDriver::show_cursor(bool shown) { set_bits(Dcm1::kOffset, Dcm1::kCursor.mask(), shown); }
 
-// ------------------------------------------------------------------------------------------------ interrupts and faults
+// ------------------------------------------------------------------------------------------------ interrupts and
+// faults
 
-void DisplayDriver::enable_vertical_blank_interrupt(bool enabled) { set_bits(IntEn::kOffset, kIntVerticalBlank, enabled); }
+void DisplayDriver::enable_vertical_blank_interrupt(bool enabled) {
+  set_bits(IntEn::kOffset, kIntVerticalBlank, enabled);
+}
 void DisplayDriver::enable_fault_interrupts(bool enabled) {
   set_bits(IntEn::kOffset, kIntAll & ~kIntVerticalBlank, enabled);
 }
@@ -181,7 +187,8 @@ void DisplayDriver::clear_faults() {
   write(IntSt::kOffset, kIntAll & ~kIntVerticalBlank);
 }
 
-// ------------------------------------------------------------------------------------------------------------ signature
+// ------------------------------------------------------------------------------------------------------------
+// signature
 
 void DisplayDriver::enable_picture_signature(bool enabled) { set_bits(Sgc::kOffset, Sgc::kPic.mask(), enabled); }
 

@@ -26,7 +26,8 @@ constexpr std::uint64_t kLooksPerFrame = 64;
 
 [[noreturn]] void fail(const std::string& rom_name, const Status& status) {
   const bool input = status.code == StatusCode::kDataLoss || status.code == StatusCode::kUnsupported;
-  throw Error(input ? ExitCode::kBadInput : ExitCode::kDevice, fmt::format("{}: {} {}", rom_name, status.message, status.where));
+  throw Error(input ? ExitCode::kBadInput : ExitCode::kDevice,
+              fmt::format("{}: {} {}", rom_name, status.message, status.where));
 }
 
 double ms_from_ns(std::uint64_t ns) { return static_cast<double>(ns) / 1e6; }

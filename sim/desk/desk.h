@@ -25,7 +25,8 @@ struct DeskConfig {
   Faults faults;
 };
 
-/// What one frame cost and how it looked on the panel. Times in *_ms are the device's virtual time, host_*_ms the host's.
+/// What one frame cost and how it looked on the panel. Times in *_ms are the device's virtual time, host_*_ms the
+/// host's.
 struct FrameRecord {
   std::uint32_t frame = 0;
   firmware::FrameReport firmware;
@@ -37,8 +38,8 @@ struct FrameRecord {
 
 class Desk {
  public:
-  /// Builds and boots the device. Throws Error kBadInput for drawing data that is not sound, kDevice for what does not fit
-  /// or does not start. `rom_name` is for messages.
+  /// Builds and boots the device. Throws Error kBadInput for drawing data that is not sound, kDevice for what does not
+  /// fit or does not start. `rom_name` is for messages.
   Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::string& rom_name);
   ~Desk();
   Desk(const Desk&) = delete;

@@ -80,8 +80,9 @@ std::string run_report_json(const RunSummary& summary, std::span<const FrameReco
 }
 
 std::string run_report_text(const RunSummary& summary, std::span<const FrameRecord> frames) {
-  std::string text = fmt::format("{}: {} frame{} of {}x{} on board {}, engine {}\n", summary.rom, frames.size(),
-                                 frames.size() == 1 ? "" : "s", summary.width, summary.height, summary.board, summary.engine);
+  std::string text =
+      fmt::format("{}: {} frame{} of {}x{} on board {}, engine {}\n", summary.rom, frames.size(),
+                  frames.size() == 1 ? "" : "s", summary.width, summary.height, summary.board, summary.engine);
   if (frames.empty()) return text;
   double thin_ms = 0, longest_thin_ms = 0, engine_ms = 0, host_ms = 0;
   for (const FrameRecord& f : frames) {
@@ -92,19 +93,30 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
   const FrameRecord& last = frames.back();
   const firmware::ThinningReport& t = last.firmware.thinning;
   text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
-  text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out, last.firmware.faces_drawn);
+  text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
+                      last.firmware.faces_drawn);
   text += fmt::format(
       "  device  thinning {:.2f} ms a frame ({:.2f} ms the longest), drawing {:.2f} ms a frame, scan-out {:.2f} ms "
       "(virtual time)\n",
       thin_ms / count, longest_thin_ms, engine_ms / count, last.scanout_ms);
   text += fmt::format("  host    {:.2f} ms a frame\n", host_ms / count);
-  text += fmt::format("  memory  {:.1f} KB of RAM at most, {:.1f} KB of VRAM, {:.1f} KB of ROM\n", static_cast<double>(summary.memory.ram_peak_bytes) / 1e3,
-                      static_cast<double>(summary.memory.vram_bytes) / 1e3, static_cast<double>(summary.memory.rom_bytes) / 1e3);
+  text += fmt::format("  memory  {:.1f} KB of RAM at most, {:.1f} KB of VRAM, {:.1f} KB of ROM\n",
+                      static_cast<double>(summary.memory.ram_peak_bytes) / 1e3,
+                      static_cast<double>(summary.memory.vram_bytes) / 1e3,
+                      static_cast<double>(summary.memory.rom_bytes) / 1e3);
   text += fmt::format("  CRC-32  {:08x} (last frame)\n", last.crc32);
-  if (t.quotas_missed > 0) text += fmt::format("  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or break the surface\n", t.quotas_missed);
-  if (t.quota_halvings > 0) text += fmt::format("  RAM was short: level-3 quotas were halved {} time(s)\n", t.quota_halvings);
-  if (t.meshes_unthinned > 0) text += fmt::format("  RAM was short: {} level-3 mesh(es) are drawn unthinned\n", t.meshes_unthinned);
-  if (t.meshes_dropped > 0) text += fmt::format("  RAM was short: {} mesh(es) are not drawn, the first is number {}\n", t.meshes_dropped, t.first_dropped);
+  if (t.quotas_missed > 0)
+    text += fmt::format(
+        "  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or "
+        "break the surface\n",
+        t.quotas_missed);
+  if (t.quota_halvings > 0)
+    text += fmt::format("  RAM was short: level-3 quotas were halved {} time(s)\n", t.quota_halvings);
+  if (t.meshes_unthinned > 0)
+    text += fmt::format("  RAM was short: {} level-3 mesh(es) are drawn unthinned\n", t.meshes_unthinned);
+  if (t.meshes_dropped > 0)
+    text += fmt::format("  RAM was short: {} mesh(es) are not drawn, the first is number {}\n", t.meshes_dropped,
+                        t.first_dropped);
   return text;
 }
 

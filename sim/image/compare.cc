@@ -23,7 +23,8 @@ std::uint32_t channel_difference(std::uint32_t a, std::uint32_t b) {
 }
 
 bool is_ignored(std::uint32_t x, std::uint32_t y, const CompareOptions& options) {
-  return std::any_of(options.ignore.begin(), options.ignore.end(), [=](const Rectangle& r) { return r.contains(x, y); });
+  return std::any_of(options.ignore.begin(), options.ignore.end(),
+                     [=](const Rectangle& r) { return r.contains(x, y); });
 }
 
 CompareReport cannot_compare(std::string reason) {
@@ -70,8 +71,8 @@ std::optional<Rectangle> parse_rectangle(std::string_view text) {
     return true;
   };
   const auto separator = [&](char c) { return p != end && *p++ == c; };
-  const bool parsed = number(r.x0) && separator(':') && number(r.y0) && separator('-') && number(r.x1) && separator(':') &&
-                      number(r.y1) && p == end;
+  const bool parsed = number(r.x0) && separator(':') && number(r.y0) && separator('-') && number(r.x1) &&
+                      separator(':') && number(r.y1) && p == end;
   if (!parsed || r.x1 < r.x0 || r.y1 < r.y0) return std::nullopt;
   return r;
 }
@@ -154,8 +155,8 @@ std::string report_text(const CompareReport& report) {
   std::string text;
   if (report.result == CompareResult::kSame && report.largest_difference == 0) return "same: every pixel is equal\n";
   text = fmt::format("{}: {} of {} pixels differ, largest channel difference {}\n",
-                     report.result == CompareResult::kSame ? "same within tolerance" : "differ", report.pixels_differing,
-                     report.pixels_compared, report.largest_difference);
+                     report.result == CompareResult::kSame ? "same within tolerance" : "differ",
+                     report.pixels_differing, report.pixels_compared, report.largest_difference);
   if (report.first)
     text += fmt::format("first at x={} y={}: expected {}, actual {}\n", report.first->x, report.first->y,
                         colour(report.first->expected), colour(report.first->actual));
@@ -178,7 +179,8 @@ std::string report_json(const CompareReport& report) {
                      {"actual", colour(report.first->actual)}};
   json["bounds"] = nullptr;
   if (report.bounds)
-    json["bounds"] = {{"x0", report.bounds->x0}, {"y0", report.bounds->y0}, {"x1", report.bounds->x1}, {"y1", report.bounds->y1}};
+    json["bounds"] = {
+        {"x0", report.bounds->x0}, {"y0", report.bounds->y0}, {"x1", report.bounds->x1}, {"y1", report.bounds->y1}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

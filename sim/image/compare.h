@@ -59,14 +59,14 @@ CompareReport compare_png_files(const std::filesystem::path& expected, const std
                                 const CompareOptions& options = {},
                                 const std::optional<std::filesystem::path>& difference_picture = std::nullopt);
 
-/// The expected picture in dim grey; differing pixels from dark red (by 1) to bright red (by 255), pixels that differ within
-/// max_diff in green, ignored parts tinted blue. The pictures have one size.
+/// The expected picture in dim grey; differing pixels from dark red (by 1) to bright red (by 255), pixels that differ
+/// within max_diff in green, ignored parts tinted blue. The pictures have one size.
 Image difference_image(const Image& expected, const Image& actual, const CompareOptions& options = {});
 
 /// For people: one line when same or not comparable, a few otherwise, each ended by a line break.
 std::string report_text(const CompareReport& report);
-/// One JSON object: result, reason, pixels_compared, pixels_differing, largest_difference, first {x, y, expected, actual},
-/// bounds {x0, y0, x1, y1}; colours as "#RRGGBB", absent things as null.
+/// One JSON object: result, reason, pixels_compared, pixels_differing, largest_difference, first {x, y, expected,
+/// actual}, bounds {x0, y0, x1, y1}; colours as "#RRGGBB", absent things as null.
 std::string report_json(const CompareReport& report);
 
 }  // namespace usuzumi::sim

@@ -72,7 +72,8 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
   png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(png.image);
   std::vector<std::byte> file(bytes);
   if (png_image_write_to_memory(&png.image, file.data(), &bytes, 0, rgb.data(), 0, nullptr) == 0)
-    throw Error(ExitCode::kCannotWrite, fmt::format("{}: the picture cannot be encoded ({})", path.string(), png.image.message));
+    throw Error(ExitCode::kCannotWrite,
+                fmt::format("{}: the picture cannot be encoded ({})", path.string(), png.image.message));
   write_file_atomically(path, std::span(file).first(bytes));
 }
 

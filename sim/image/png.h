@@ -10,8 +10,8 @@ namespace usuzumi::sim {
 /// Larger pictures are refused: 16384 pixels each way.
 inline constexpr std::uint32_t kMaxPngSize = 16384;
 
-/// Any PNG; grey, palette and 16-bit pictures become 8 bits a channel, transparent parts are laid over black. Throws Error
-/// kBadInput: missing, not a PNG, truncated or damaged, too large.
+/// Any PNG; grey, palette and 16-bit pictures become 8 bits a channel, transparent parts are laid over black. Throws
+/// Error kBadInput: missing, not a PNG, truncated or damaged, too large.
 Image read_png(const std::filesystem::path& path);
 
 enum class PngEffort {

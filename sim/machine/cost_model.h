@@ -20,10 +20,10 @@ struct CpuCost {
 };
 
 inline constexpr std::array<CpuCost, static_cast<std::size_t>(CpuWork::kCount)> kCpuCosts{{
-    {CpuWork::kVertexCopied, 30},        // 20 bytes (position, normal, colour) out of flash, checked, into RAM
-    {CpuWork::kIndexCopied, 8},          // 4 bytes likewise, compared with the vertex count
-    {CpuWork::kFaceMeasured, 180},       // three corners of 16 multiply-adds and a divide; outcodes, cross product, sum;
-                                         // clipped faces average in
+    {CpuWork::kVertexCopied, 30},   // 20 bytes (position, normal, colour) out of flash, checked, into RAM
+    {CpuWork::kIndexCopied, 8},     // 4 bytes likewise, compared with the vertex count
+    {CpuWork::kFaceMeasured, 180},  // three corners of 16 multiply-adds and a divide; outcodes, cross product, sum;
+                                    // clipped faces average in
     {CpuWork::kConnectivityBuilt, 100},  // three corners counted and placed: five scattered accesses
     {CpuWork::kEdgeCosted, 200},     // two quadrics added, 3x3 solved, error evaluated: about 90 operations, 4 misses;
                                      // the comparison with the horizon with it

@@ -153,8 +153,8 @@ bool read_numbers(const json& object, const char* key, double (&out)[kCount]) {
   return true;
 }
 
-/// Of a glTF 1.0 node without a matrix. assimp 5.2 multiplies these parts in the wrong order: a wheel that is turned and
-/// moved would be moved along its turned axes.
+/// Of a glTF 1.0 node without a matrix. assimp 5.2 multiplies these parts in the wrong order: a wheel that is turned
+/// and moved would be moved along its turned axes.
 std::optional<Transform> local_transform(const json& node) {
   if (node.contains("matrix")) return std::nullopt;
   double translation[3] = {0, 0, 0}, rotation[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
@@ -164,7 +164,8 @@ std::optional<Transform> local_transform(const json& node) {
   return from_parts(translation, rotation, scale);
 }
 
-/// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by identifier there.
+/// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by
+/// identifier there.
 std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind,
                                               std::vector<std::string>& notes) {
   std::map<std::string, Gltf1Label> labels;

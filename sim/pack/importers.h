@@ -12,7 +12,8 @@ namespace usuzumi::sim {
 /// node transforms applied, strips and fans taken apart, extras read (node over mesh). Throws Error kBadInput.
 Model import_gltf(const std::filesystem::path& path, const GltfFile& file);
 
-/// .obj .ply .stl .off .dae .ac and glTF 1.0 by assimp: polygons cut into triangles, node transforms applied. Of glTF 1.0
+/// .obj .ply .stl .off .dae .ac and glTF 1.0 by assimp: polygons cut into triangles, node transforms applied. Of
+/// glTF 1.0
 /// (`gltf1`) the nodes' transforms come from the file itself where it says them in parts.
 Model import_assimp(const std::filesystem::path& path, const GltfFile* gltf1 = nullptr);
 

@@ -83,8 +83,8 @@ void check_mesh(const std::string& file, const Mesh& mesh) {
     if (!is_finite(p)) refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
     constexpr float kMost = firmware::format::kMaxCoordinate;
     if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > kMost)
-      refuse(fmt::format("vertex {} is at {:g} {:g} {:g}, and drawing data hold coordinates up to {:g}", v, p.x, p.y, p.z,
-                         kMost));
+      refuse(fmt::format("vertex {} is at {:g} {:g} {:g}, and drawing data hold coordinates up to {:g}", v, p.x, p.y,
+                         p.z, kMost));
   }
   for (std::uint32_t i : mesh.indices)
     if (i >= vertices) refuse(fmt::format("a face refers to vertex {} of {}", i, vertices));

@@ -51,10 +51,11 @@ void check_off_counts(const std::filesystem::path& path) {
   // A vertex is a digit and a separator at least, and so is a face.
   const std::uint64_t most = bytes.size() / 2;
   if (vertices > most || faces > most)
-    throw Error(ExitCode::kBadInput,
-                fmt::format("{}: claims {} vertices and {} faces in a file of {} bytes; it is damaged or cut off: export "
-                            "it again",
-                            path.string(), vertices, faces, bytes.size()));
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format("{}: claims {} vertices and {} faces in a file of {} bytes; it is damaged or cut off: export "
+                    "it again",
+                    path.string(), vertices, faces, bytes.size()));
 }
 
 }  // namespace usuzumi::sim

@@ -16,9 +16,9 @@ struct PositionIds {
 };
 PositionIds number_positions(std::span<const Vec3> positions);
 
-/// Sets coordinates to 0 that are nothing beside the mesh's largest: 2^-30 of it and less, a hundredth of what a single can
-/// tell there. sin(pi) is not 0 in floating point: the vertices at the pole of a sphere lie 1e-16 apart, and would stay a
-/// ring of open edges.
+/// Sets coordinates to 0 that are nothing beside the mesh's largest: 2^-30 of it and less, a hundredth of what a single
+/// can tell there. sin(pi) is not 0 in floating point: the vertices at the pole of a sphere lie 1e-16 apart, and would
+/// stay a ring of open edges.
 void drop_rounding_noise(Mesh& mesh);
 
 /// Joins vertices of equal position, packed normal and colour; drops unreferenced ones. Vertices come out in the order

@@ -1,8 +1,8 @@
 // The panel: rebuilds pictures from pixels and sync alone. It knows no register, no frame size and no address.
 //
 // A picture is what came with data enable between two rises of VSYNC; its lines are parted by rises of HSYNC. The panel
-// waits for a first VSYNC. A signal it cannot trust (lines of different length from the first picture line on, VSYNC or HSYNC
-// amid pixels, data enable without pixels, pictures beyond 16384 x 16384) is unstable; that picture is dropped.
+// waits for a first VSYNC. A signal it cannot trust (lines of different length from the first picture line on, VSYNC or
+// HSYNC amid pixels, data enable without pixels, pictures beyond 16384 x 16384) is unstable; that picture is dropped.
 #pragma once
 
 #include <cstdint>

@@ -107,8 +107,8 @@ PeerComparison& PeerComparison::operator+=(const PeerComparison& other) {
 PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackgrounds& peers, std::uint32_t tolerance) {
   PeerComparison result;
   const auto place = [&](std::uint32_t x, std::uint32_t y) {
-    return "(" + std::to_string(x) + ", " + std::to_string(y) + "): ours " + colour_text(ours.first.at(x, y)) + ", the peer's " +
-           colour_text(peers.first.at(x, y));
+    return "(" + std::to_string(x) + ", " + std::to_string(y) + "): ours " + colour_text(ours.first.at(x, y)) +
+           ", the peer's " + colour_text(peers.first.at(x, y));
   };
   for (std::uint32_t y = 0; y < ours.first.height; ++y) {
     for (std::uint32_t x = 0; x < ours.first.width; ++x) {
@@ -116,7 +116,8 @@ PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackground
       if (!by_us && !by_peer) continue;
       ++result.covered;
       if (by_us != by_peer) {
-        if (result.covered_by_one++ == 0) result.first_coverage = place(x, y) + (by_us ? " (not covered)" : " (covered)");
+        if (result.covered_by_one++ == 0)
+          result.first_coverage = place(x, y) + (by_us ? " (not covered)" : " (covered)");
         continue;
       }
       ++result.compared;

@@ -16,11 +16,13 @@ struct Verdict {
   std::string report;
 };
 
-/// Every pixel and the CRC-32 as in the store. A scene without a golden fails. On failure the pictures actual, expected and
-/// difference are written to `failures`.
-Verdict check_golden(const Store& store, const std::string& scene, const sim::Image& actual, const std::filesystem::path& failures);
+/// Every pixel and the CRC-32 as in the store. A scene without a golden fails. On failure the pictures actual, expected
+/// and difference are written to `failures`.
+Verdict check_golden(const Store& store, const std::string& scene, const sim::Image& actual,
+                     const std::filesystem::path& failures);
 
-/// One engine's pictures of a scene over two backgrounds that differ in every channel: a pixel is covered when both agree.
+/// One engine's pictures of a scene over two backgrounds that differ in every channel: a pixel is covered when both
+/// agree.
 struct TwoBackgrounds {
   sim::Image first, second;
   bool covered(std::uint32_t x, std::uint32_t y) const { return first.at(x, y) == second.at(x, y); }
@@ -44,6 +46,7 @@ struct PeerComparison {
 };
 inline constexpr std::uint32_t kChannelTolerance = 2;  // of 255
 
-PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackgrounds& peers, std::uint32_t tolerance = kChannelTolerance);
+PeerComparison compare_with_peer(const TwoBackgrounds& ours, const TwoBackgrounds& peers,
+                                 std::uint32_t tolerance = kChannelTolerance);
 
 }  // namespace usuzumi::golden

@@ -57,7 +57,9 @@ const Entry* Store::find(std::string_view scene) const {
   return found == entries_.end() ? nullptr : &*found;
 }
 
-std::filesystem::path Store::picture_path(std::string_view scene) const { return folder_ / (std::string(scene) + ".png"); }
+std::filesystem::path Store::picture_path(std::string_view scene) const {
+  return folder_ / (std::string(scene) + ".png");
+}
 
 std::vector<std::string> Store::pictures_on_disk() const {
   std::set<std::string> names;

@@ -23,8 +23,8 @@ class Store {
   /// The folder the sources keep their goldens in.
   static std::filesystem::path source_folder();
 
-  /// Reads the folder's manifest; a folder without one is an empty store. Throws std::runtime_error, with file and line,
-  /// on a line that cannot be read or a scene named twice.
+  /// Reads the folder's manifest; a folder without one is an empty store. Throws std::runtime_error, with file and
+  /// line, on a line that cannot be read or a scene named twice.
   explicit Store(std::filesystem::path folder);
 
   const std::vector<Entry>& entries() const { return entries_; }

@@ -54,7 +54,8 @@ void expect_same_bytes(const SceneDrawing& first, const SceneDrawing& second, co
 class GoldenScene : public testing::TestWithParam<Scene> {};
 
 TEST_P(GoldenScene, SoftEngineGivesTheGoldenExactly) {
-  const Verdict verdict = check_golden(source_store(), GetParam().name, draw_well(GetParam(), soft_engine()).picture, kFailures);
+  const Verdict verdict =
+      check_golden(source_store(), GetParam().name, draw_well(GetParam(), soft_engine()).picture, kFailures);
   EXPECT_TRUE(verdict.ok) << verdict.report;
 }
 
@@ -70,7 +71,8 @@ TEST_P(GoldenScene, EveryRouteGivesTheSameBytes) {
     scenes::SoftEngineKit kit(1, kernels);
     expect_same_bytes(first, draw_well(GetParam(), kit.engine()), kernels->name);
   }
-  scenes::SoftEngineKit cramped(1, nullptr, gfx::SoftEngine::minimum_work_bytes(GetParam().target.width, GetParam().target.height));
+  scenes::SoftEngineKit cramped(1, nullptr,
+                                gfx::SoftEngine::minimum_work_bytes(GetParam().target.width, GetParam().target.height));
   expect_same_bytes(first, draw_well(GetParam(), cramped.engine()), "least working memory");
 }
 
@@ -87,7 +89,8 @@ TEST_P(GoldenScene, PanelShowsTheGolden) {
 TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
   ASSERT_TRUE(osmesa_engine().status().ok()) << osmesa_engine().status().message;
   const auto over_both = [&](gfx::Engine& engine) {
-    return TwoBackgrounds{draw_well(GetParam(), engine).picture, draw_well(GetParam(), engine, scenes::kOtherBackground).picture};
+    return TwoBackgrounds{draw_well(GetParam(), engine).picture,
+                          draw_well(GetParam(), engine, scenes::kOtherBackground).picture};
   };
   const TwoBackgrounds ours = over_both(soft_engine()), peers = over_both(osmesa_engine());
   const PeerComparison c = compare_with_peer(ours, peers);
@@ -96,10 +99,10 @@ TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
   RecordProperty("covered_by_one", static_cast<int>(c.covered_by_one));
   RecordProperty("beyond_tolerance", static_cast<int>(c.beyond_tolerance));
   RecordProperty("worst", static_cast<int>(c.worst));
-  EXPECT_TRUE(c.coverage_ok()) << c.covered_by_one << " of " << c.covered << " pixels are covered by one engine only; first at "
-                               << c.first_coverage;
-  EXPECT_TRUE(c.colour_ok()) << c.beyond_tolerance << " of " << c.compared << " pixels differ by more than " << kChannelTolerance
-                             << ", by up to " << c.worst << "; first at " << c.first_colour;
+  EXPECT_TRUE(c.coverage_ok()) << c.covered_by_one << " of " << c.covered
+                               << " pixels are covered by one engine only; first at " << c.first_coverage;
+  EXPECT_TRUE(c.colour_ok()) << c.beyond_tolerance << " of " << c.compared << " pixels differ by more than "
+                             << kChannelTolerance << ", by up to " << c.worst << "; first at " << c.first_colour;
   if (c.coverage_ok() && c.colour_ok()) return;
   const std::string name = GetParam().name;
   std::filesystem::create_directories(kFailures);
@@ -110,14 +113,17 @@ TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
 }
 
 TEST_P(GoldenScene, EnginesCountTheSameWork) {
-  const gfx::EngineCounters soft = draw_well(GetParam(), soft_engine()).counters, osmesa = draw_well(GetParam(), osmesa_engine()).counters;
+  const gfx::EngineCounters soft = draw_well(GetParam(), soft_engine()).counters,
+                            osmesa = draw_well(GetParam(), osmesa_engine()).counters;
   EXPECT_EQ(soft.command_words, osmesa.command_words);
   EXPECT_EQ(soft.vertices_transformed, osmesa.vertices_transformed);
   EXPECT_EQ(soft.primitives_in, osmesa.primitives_in);
   EXPECT_EQ(soft.faces_in, osmesa.faces_in);
   EXPECT_EQ(soft.pixels_cleared, osmesa.pixels_cleared);
-  EXPECT_NEAR(static_cast<double>(soft.faces_drawn), static_cast<double>(osmesa.faces_drawn), static_cast<double>(osmesa.faces_drawn) * 0.01);
-  EXPECT_NEAR(static_cast<double>(soft.pixels_tested), static_cast<double>(osmesa.pixels_tested), static_cast<double>(osmesa.pixels_tested) * 0.001);
+  EXPECT_NEAR(static_cast<double>(soft.faces_drawn), static_cast<double>(osmesa.faces_drawn),
+              static_cast<double>(osmesa.faces_drawn) * 0.01);
+  EXPECT_NEAR(static_cast<double>(soft.pixels_tested), static_cast<double>(osmesa.pixels_tested),
+              static_cast<double>(osmesa.pixels_tested) * 0.001);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene,
@@ -129,7 +135,8 @@ TEST(GoldenManifest, NamesEverySceneAndRunAndNothingElse) {
   for (const Subject& subject : all_subjects()) {
     EXPECT_EQ(found[subject.name]++, 0) << subject.name << " is there twice";
     const Entry* entry = source_store().find(subject.name);
-    ASSERT_NE(entry, nullptr) << subject.name << " has no golden; if its picture is right: bash tests/golden/approve.sh "
+    ASSERT_NE(entry, nullptr) << subject.name
+                              << " has no golden; if its picture is right: bash tests/golden/approve.sh "
                               << subject.name;
     EXPECT_EQ(entry->note, subject.note) << subject.name << ": approve.sh brings the manifest's note up to date";
   }

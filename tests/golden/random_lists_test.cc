@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint64_t kLists = 300;
 
 scenes::Scene random_scene(std::uint64_t seed) {
-  return {"random", "", scenes::random_target(seed), [seed](scenes::SceneBuilder& b) { scenes::build_random(b, seed); }};
+  return {"random", "", scenes::random_target(seed),
+          [seed](scenes::SceneBuilder& b) { scenes::build_random(b, seed); }};
 }
 
 scenes::SceneDrawing draw_well(std::uint64_t seed, gfx::Engine& engine, Rgba8 background = scenes::kBackground) {
@@ -34,9 +35,10 @@ TEST(RandomLists, OsmesaCoversAndColoursTheSame) {
       return TwoBackgrounds{draw_well(seed, engine).picture, draw_well(seed, engine, scenes::kOtherBackground).picture};
     };
     const bool in_16_bits = scenes::random_target(seed).format == command::PixelFormat::kRgb565;
-    const PeerComparison one = compare_with_peer(over_both(soft.engine()), over_both(osmesa), in_16_bits ? kStepOf5Bits : kChannelTolerance);
-    // Each list on its own may be small and unlucky: indices that name a triangle twice, its corners in another order, make
-    // two flat colours fight for one depth.
+    const PeerComparison one =
+        compare_with_peer(over_both(soft.engine()), over_both(osmesa), in_16_bits ? kStepOf5Bits : kChannelTolerance);
+    // Each list on its own may be small and unlucky: indices that name a triangle twice, its corners in another order,
+    // make two flat colours fight for one depth.
     EXPECT_LE(one.covered_by_one, 3 + one.covered / 1000) << "seed " << seed << ": first at " << one.first_coverage;
     EXPECT_LE(one.beyond_tolerance, 5 + one.compared / 4) << "seed " << seed << ": first at " << one.first_colour;
     sum[in_16_bits ? 1 : 0] += one;
@@ -45,8 +47,8 @@ TEST(RandomLists, OsmesaCoversAndColoursTheSame) {
     EXPECT_GT(c.covered, 100000u);
     EXPECT_TRUE(c.coverage_ok()) << c.covered_by_one << " of " << c.covered;
     EXPECT_TRUE(c.colour_ok()) << c.beyond_tolerance << " of " << c.compared;
-    std::printf("covered %zu, by one engine only %zu, compared %zu, beyond tolerance %zu\n", c.covered, c.covered_by_one, c.compared,
-                c.beyond_tolerance);
+    std::printf("covered %zu, by one engine only %zu, compared %zu, beyond tolerance %zu\n", c.covered,
+                c.covered_by_one, c.compared, c.beyond_tolerance);
   }
 }
 

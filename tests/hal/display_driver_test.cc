@@ -238,7 +238,8 @@ TEST(DisplayDriver, FaultsNameWhatHappened) {
   EXPECT_EQ(w.driver.faults().configuration_detail, 0x00020000u);
 }
 
-// ------------------------------------------------------------------------------------------- with a controller behind it
+// ------------------------------------------------------------------------------------------- with a controller behind
+// it
 
 class NoMemory final : public BusMemory {
  private:
@@ -303,7 +304,8 @@ TEST(DisplayDriverOnTheController, NothingTheDriverWritesIsAGuestMistake) {
   Device d;
   ASSERT_TRUE(d.driver.set_mode(kMode480x272).ok());
   for (std::uint32_t n = 0; n < 4; ++n) {
-    ASSERT_TRUE(d.driver.configure_layer(n, {.stride_bytes = 1920, .x = -4096, .y = 4095, .width = 480, .height = 272}).ok());
+    ASSERT_TRUE(
+        d.driver.configure_layer(n, {.stride_bytes = 1920, .x = -4096, .y = 4095, .width = 480, .height = 272}).ok());
     ASSERT_TRUE(d.driver.show_layer(n, true).ok());
     ASSERT_TRUE(d.driver.request_flip(n, 1, 0xFFFFFFFC).ok());
   }
@@ -323,7 +325,8 @@ TEST(DisplayDriverOnTheController, NothingTheDriverWritesIsAGuestMistake) {
   EXPECT_EQ(d.controller.registers().unimplemented_count(), 0u);
 }
 
-// ---------------------------------------------------------------------------------------------------------------- modes
+// ----------------------------------------------------------------------------------------------------------------
+// modes
 
 TEST(DisplayModes, CommonPanelsGetTheirDataSheetsTiming) {
   EXPECT_EQ(kMode480x272.pixel_clock_hz(), 9'090'909u);

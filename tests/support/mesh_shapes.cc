@@ -39,8 +39,18 @@ Mesh split_edges(const Mesh& mesh, Place place) {
 Mesh icosphere(int levels) {
   const float t = (1.0f + std::sqrt(5.0f)) / 2.0f;
   Mesh mesh;
-  for (const Vec3 p : {Vec3{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t}, {0, -1, -t}, {0, 1, -t},
-                       {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}})
+  for (const Vec3 p : {Vec3{-1, t, 0},
+                       {1, t, 0},
+                       {-1, -t, 0},
+                       {1, -t, 0},
+                       {0, -1, t},
+                       {0, 1, t},
+                       {0, -1, -t},
+                       {0, 1, -t},
+                       {t, 0, -1},
+                       {t, 0, 1},
+                       {-t, 0, -1},
+                       {-t, 0, 1}})
     mesh.positions.push_back(normalized(p));
   mesh.indices = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
                   3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1};
@@ -51,7 +61,8 @@ Mesh icosphere(int levels) {
 Mesh grid(std::uint32_t columns, std::uint32_t rows) {
   Mesh mesh;
   for (std::uint32_t y = 0; y <= rows; ++y)
-    for (std::uint32_t x = 0; x <= columns; ++x) mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
+    for (std::uint32_t x = 0; x <= columns; ++x)
+      mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), 0});
   for (std::uint32_t y = 0; y < rows; ++y) {
     for (std::uint32_t x = 0; x < columns; ++x) {
       const std::uint32_t a = y * (columns + 1) + x, b = a + 1, c = b + columns + 1, d = a + columns + 1;
@@ -67,9 +78,9 @@ Mesh cube(std::uint32_t n) {
   Mesh mesh;
   // Each side's (x, y) of the grid runs so that the triangle's normal points outwards.
   const std::array<Vec3 (*)(float, float, float), 6> places = {
-      [](float x, float y, float e) { return Vec3{x, y, e}; },    [](float x, float y, float) { return Vec3{y, x, 0}; },
-      [](float x, float y, float e) { return Vec3{e, x, y}; },    [](float x, float y, float) { return Vec3{0, y, x}; },
-      [](float x, float y, float e) { return Vec3{y, e, x}; },    [](float x, float y, float) { return Vec3{x, 0, y}; }};
+      [](float x, float y, float e) { return Vec3{x, y, e}; }, [](float x, float y, float) { return Vec3{y, x, 0}; },
+      [](float x, float y, float e) { return Vec3{e, x, y}; }, [](float x, float y, float) { return Vec3{0, y, x}; },
+      [](float x, float y, float e) { return Vec3{y, e, x}; }, [](float x, float y, float) { return Vec3{x, 0, y}; }};
   for (const auto place : places) {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3 p : side.positions) mesh.positions.push_back(place(p.x, p.y, s));
@@ -85,7 +96,8 @@ Mesh subdivided(const Mesh& mesh) {
 Mesh with_flat_normals(const Mesh& mesh) {
   Mesh result;
   for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
-    const Vec3 a = mesh.positions[mesh.indices[f]], b = mesh.positions[mesh.indices[f + 1]], c = mesh.positions[mesh.indices[f + 2]];
+    const Vec3 a = mesh.positions[mesh.indices[f]], b = mesh.positions[mesh.indices[f + 1]],
+               c = mesh.positions[mesh.indices[f + 2]];
     const PackedNormal normal = pack_normal(normalized(cross(b - a, c - a)));
     for (const Vec3 p : {a, b, c}) {
       result.indices.push_back(static_cast<std::uint32_t>(result.positions.size()));
@@ -101,7 +113,8 @@ Mesh welded(const Mesh& mesh) {
   std::map<PositionKey, std::uint32_t> numbers;
   std::vector<std::uint32_t> number(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const auto [it, added] = numbers.try_emplace(key_of(mesh.positions[v]), static_cast<std::uint32_t>(result.positions.size()));
+    const auto [it, added] =
+        numbers.try_emplace(key_of(mesh.positions[v]), static_cast<std::uint32_t>(result.positions.size()));
     if (added) result.positions.push_back(mesh.positions[v]);
     number[v] = it->second;
   }
@@ -122,7 +135,8 @@ MeshTopology topology_of(const Mesh& mesh) {
     return numbers.try_emplace(key_of(mesh.positions[index]), static_cast<std::uint32_t>(numbers.size())).first->second;
   };
   for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
-    const std::array<std::uint32_t, 3> v = {number(mesh.indices[f]), number(mesh.indices[f + 1]), number(mesh.indices[f + 2])};
+    const std::array<std::uint32_t, 3> v = {number(mesh.indices[f]), number(mesh.indices[f + 1]),
+                                            number(mesh.indices[f + 2])};
     ++result.faces;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
       ++result.degenerate_faces;

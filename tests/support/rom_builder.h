@@ -45,7 +45,8 @@ struct TestMesh {
   std::uint32_t flags = 0;
 };
 
-inline void append_records(RomImage& rom, const std::vector<TestMesh>& meshes, std::vector<std::uint32_t>* offsets = nullptr) {
+inline void append_records(RomImage& rom, const std::vector<TestMesh>& meshes,
+                           std::vector<std::uint32_t>* offsets = nullptr) {
   rom.word(static_cast<std::uint32_t>(meshes.size()));
   for (const TestMesh& mesh : meshes) {
     if (offsets != nullptr) offsets->push_back(rom.size());

@@ -47,8 +47,8 @@ inline constexpr Rgba8 kBackground = rgba8(24, 28, 36);
 /// Differs from kBackground in every channel, in 16 bits too.
 inline constexpr Rgba8 kOtherBackground = rgba8(230, 226, 219);
 
-/// Draws the scene in fresh memory. VRAM's pixels are `background` at first, and so is what the scene clears to unless the
-/// clear is what it shows: pixels equal over two backgrounds are those the scene covers.
+/// Draws the scene in fresh memory. VRAM's pixels are `background` at first, and so is what the scene clears to unless
+/// the clear is what it shows: pixels equal over two backgrounds are those the scene covers.
 SceneDrawing draw_scene(const Scene& scene, gfx::Engine& engine, Rgba8 background = kBackground);
 
 }  // namespace usuzumi::scenes

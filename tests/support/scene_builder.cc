@@ -6,8 +6,8 @@
 
 namespace usuzumi::scenes {
 
-SceneBuilder::SceneBuilder(SceneMemory& memory, const command::SetColourTarget& colour, const command::SetDepthTarget& depth,
-                           Rgba8 background)
+SceneBuilder::SceneBuilder(SceneMemory& memory, const command::SetColourTarget& colour,
+                           const command::SetDepthTarget& depth, Rgba8 background)
     : memory_(memory), colour_(colour), depth_(depth), background_(background) {
   begin_list();
 }
@@ -36,7 +36,8 @@ void SceneBuilder::draw_vertices(const Mesh& mesh, command::Topology topology, R
 
 void SceneBuilder::draw_mesh(const Mesh& mesh, Rgba8 constant) {
   set_streams(mesh, constant);
-  command::Draw draw{command::Topology::kTriangles, command::IndexFormat::kU32, 0, 0, static_cast<std::uint32_t>(mesh.indices.size())};
+  command::Draw draw{command::Topology::kTriangles, command::IndexFormat::kU32, 0, 0,
+                     static_cast<std::uint32_t>(mesh.indices.size())};
   if (mesh.positions.size() <= 0x10000) {
     draw.index_format = command::IndexFormat::kU16;
     draw.index_address = store(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end()));

@@ -14,7 +14,8 @@ namespace usuzumi::scenes {
 class SceneBuilder {
  public:
   /// Every list begins with the packets that set the targets.
-  SceneBuilder(SceneMemory& memory, const command::SetColourTarget& colour, const command::SetDepthTarget& depth, Rgba8 background);
+  SceneBuilder(SceneMemory& memory, const command::SetColourTarget& colour, const command::SetDepthTarget& depth,
+               Rgba8 background);
 
   const command::SetColourTarget& target() const { return colour_; }
   std::uint32_t width() const { return colour_.width; }

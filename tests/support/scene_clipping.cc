@@ -71,8 +71,8 @@ void build_giant_triangles(SceneBuilder& b) {
   b.draw_vertices(mesh, Topology::kTriangles);
 }
 
-// Viewports smaller than the target, overlapping and beyond its edge, at fractions of a pixel, with depth ranges. What a
-// triangle has outside -w..w is not drawn, though the target has room for it.
+// Viewports smaller than the target, overlapping and beyond its edge, at fractions of a pixel, with depth ranges. What
+// a triangle has outside -w..w is not drawn, though the target has room for it.
 void build_viewports(SceneBuilder& b) {
   b.clear_to_background();
   use_depth(b);
@@ -80,15 +80,17 @@ void build_viewports(SceneBuilder& b) {
   mesh.add_vertex({-1.6f, -0.9f, -0.5f}, rgba8(255, 80, 60));
   mesh.add_vertex({1.2f, -0.7f, 0}, rgba8(80, 255, 90));
   mesh.add_vertex({0.1f, 1.4f, 0.5f}, rgba8(90, 110, 255));
-  const SetViewport viewports[] = {{8, 8, 48, 40, 0, 1},         {66.5f, 10.25f, 50.5f, 30.75f, 0, 1}, {4, 60, 60, 60, 0.5f, 1},
-                                   {40, 70, 60, 50, 0, 0.25f},   {110, 64, 80, 40, 1, 0},              {90, 104, 40, 60, 0.5f, 0.5f}};
+  const SetViewport viewports[] = {{8, 8, 48, 40, 0, 1},     {66.5f, 10.25f, 50.5f, 30.75f, 0, 1},
+                                   {4, 60, 60, 60, 0.5f, 1}, {40, 70, 60, 50, 0, 0.25f},
+                                   {110, 64, 80, 40, 1, 0},  {90, 104, 40, 60, 0.5f, 0.5f}};
   for (const SetViewport& viewport : viewports) {
     b.put(viewport);
     b.draw_vertices(mesh, Topology::kTriangles);
   }
 }
 
-// A chequered floor from under the eye to the horizon: colours follow perspective, and the near plane cuts the first rows.
+// A chequered floor from under the eye to the horizon: colours follow perspective, and the near plane cuts the first
+// rows.
 void build_floor(SceneBuilder& b) {
   b.clear_to_background();
   use_depth(b);

@@ -18,7 +18,8 @@ void use_depth(SceneBuilder& b, DepthFunction function, bool write = true) {
 }
 
 void rectangle(SceneBuilder& b, float x, float y, float width, float height, float depth, Rgba8 colour) {
-  b.draw_mesh(convex({{x, y, depth}, {x, y + height, depth}, {x + width, y + height, depth}, {x + width, y, depth}}, colour));
+  b.draw_mesh(
+      convex({{x, y, depth}, {x, y + height, depth}, {x + width, y + height, depth}, {x + width, y, depth}}, colour));
 }
 
 }  // namespace
@@ -64,10 +65,13 @@ void build_interpenetrating(SceneBuilder& b) {
   use_depth(b, DepthFunction::kLess);
   for (std::uint32_t i = 0; i < 3; ++i) {
     const double angle = 2 * kPi * i / 3 + 0.2;
-    const Vec3 along{static_cast<float>(cosine(angle)), static_cast<float>(sine(angle)), 0}, across{-along.y, along.x, 0};
+    const Vec3 along{static_cast<float>(cosine(angle)), static_cast<float>(sine(angle)), 0},
+        across{-along.y, along.x, 0};
     const Vec3 centre{80, 80, 0.5f}, tilt{0, 0, 0.4f};
     const Rgba8 colour = i == 0 ? kRed : (i == 1 ? kGreen : kBlue);
-    b.draw_mesh(convex({centre + along * 74 + tilt, centre + across * 30 - along * 50 - tilt, centre - across * 30 - along * 50 - tilt}, colour));
+    b.draw_mesh(convex({centre + along * 74 + tilt, centre + across * 30 - along * 50 - tilt,
+                        centre - across * 30 - along * 50 - tilt},
+                       colour));
   }
 }
 

@@ -47,7 +47,8 @@ struct Layout {
 // Calls visit(first byte, bytes) for each row's pixels.
 template <class Visit>
 void for_each_row(const Plane& plane, std::uint32_t height, Visit visit) {
-  for (std::uint32_t y = 0; y < height && plane.row_bytes > 0; ++y) visit(plane.offset + std::size_t{y} * plane.stride, plane.row_bytes);
+  for (std::uint32_t y = 0; y < height && plane.row_bytes > 0; ++y)
+    visit(plane.offset + std::size_t{y} * plane.stride, plane.row_bytes);
 }
 
 void fill_background(std::span<std::byte> vram, const Layout& layout, const TargetSpec& t, Rgba8 background) {
@@ -59,7 +60,9 @@ void fill_background(std::span<std::byte> vram, const Layout& layout, const Targ
 }
 
 bool outside_pixels_untouched(std::vector<std::byte> vram, const Layout& layout, const TargetSpec& t) {
-  const auto forgive = [&](std::size_t at, std::uint32_t bytes) { std::memset(&vram[at], static_cast<int>(kUntouched), bytes); };
+  const auto forgive = [&](std::size_t at, std::uint32_t bytes) {
+    std::memset(&vram[at], static_cast<int>(kUntouched), bytes);
+  };
   for_each_row(layout.colour, t.height, forgive);
   for_each_row(layout.depth, t.height, forgive);
   for (std::byte b : vram)

@@ -34,8 +34,11 @@ class FreshThreads final : public gfx::ParallelRunner {
 /// `kernels` nullptr: the best the processor supports.
 class SoftEngineKit {
  public:
-  explicit SoftEngineKit(std::uint32_t threads = 1, const gfx::soft::Kernels* kernels = nullptr, std::size_t work_bytes = std::size_t{8} << 20)
-      : work_memory_(work_bytes), runner_(threads), engine_({work_memory_, threads > 1 ? &runner_ : nullptr, kernels}) {}
+  explicit SoftEngineKit(std::uint32_t threads = 1, const gfx::soft::Kernels* kernels = nullptr,
+                         std::size_t work_bytes = std::size_t{8} << 20)
+      : work_memory_(work_bytes),
+        runner_(threads),
+        engine_({work_memory_, threads > 1 ? &runner_ : nullptr, kernels}) {}
 
   gfx::SoftEngine& engine() { return engine_; }
 

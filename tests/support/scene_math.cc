@@ -52,7 +52,8 @@ Mat4 perspective(double vertical_angle_rad, double aspect, double near_distance,
 }
 
 Mat4 pixels_to_clip(std::uint32_t width, std::uint32_t height) {
-  return {{2.0f / static_cast<float>(width), 0, 0, -1, 0, -2.0f / static_cast<float>(height), 0, 1, 0, 0, 2, -1, 0, 0, 0, 1}};
+  return {{2.0f / static_cast<float>(width), 0, 0, -1, 0, -2.0f / static_cast<float>(height), 0, 1, 0, 0, 2, -1, 0, 0,
+           0, 1}};
 }
 
 }  // namespace usuzumi::scenes

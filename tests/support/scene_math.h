@@ -1,5 +1,5 @@
-// Transforms for scenes. Sine and cosine are our own, so that a scene's vertices, and with them the goldens, are the same
-// on every C library.
+// Transforms for scenes. Sine and cosine are our own, so that a scene's vertices, and with them the goldens, are the
+// same on every C library.
 #pragma once
 
 #include "hal/vec.h"

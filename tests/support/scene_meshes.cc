@@ -7,7 +7,9 @@
 namespace usuzumi::scenes {
 namespace {
 
-Vec3 vec3(double x, double y, double z) { return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}; }
+Vec3 vec3(double x, double y, double z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
 
 // Joins a grid of (columns + 1) x (rows + 1) vertices, row by row, into triangles.
 void add_grid(Mesh& mesh, std::uint32_t columns, std::uint32_t rows) {
@@ -61,7 +63,8 @@ Mesh torus(float ring_radius, float tube_radius, std::uint32_t ring_parts, std::
   return mesh;
 }
 
-Mesh arc(Vec3 centre, float inner_radius, float outer_radius, double from_rad, double to_rad, std::uint32_t parts, Rgba8 colour) {
+Mesh arc(Vec3 centre, float inner_radius, float outer_radius, double from_rad, double to_rad, std::uint32_t parts,
+         Rgba8 colour) {
   Mesh mesh;
   for (std::uint32_t i = 0; i <= parts; ++i) {
     const double angle = from_rad + (to_rad - from_rad) * i / parts;

@@ -27,7 +27,8 @@ Mesh torus(float ring_radius, float tube_radius, std::uint32_t ring_parts, std::
 
 /// Flat pieces in the plane z, y down as pixels run, with one colour and wound counter-clockwise as seen on the panel.
 /// Angles run clockwise on the panel from twelve o'clock.
-Mesh arc(Vec3 centre, float inner_radius, float outer_radius, double from_rad, double to_rad, std::uint32_t parts, Rgba8 colour);
+Mesh arc(Vec3 centre, float inner_radius, float outer_radius, double from_rad, double to_rad, std::uint32_t parts,
+         Rgba8 colour);
 Mesh disc(Vec3 centre, float radius, std::uint32_t parts, Rgba8 colour);
 Mesh convex(const std::vector<Vec3>& outline, Rgba8 colour);
 

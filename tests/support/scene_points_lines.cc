@@ -39,7 +39,8 @@ void build_points(SceneBuilder& b) {
     x += size / 2;
     const float offsets[] = {0, 0.25f, 0.5f, 0.71875f};  // of the vertex within its pixel
     for (std::uint32_t i = 0; i < 4; ++i)
-      mesh.add_vertex({static_cast<float>(static_cast<int>(x)) + offsets[i], 12 + 20 * static_cast<float>(i) + offsets[3 - i], 0.5f},
+      mesh.add_vertex({static_cast<float>(static_cast<int>(x)) + offsets[i],
+                       12 + 20 * static_cast<float>(i) + offsets[3 - i], 0.5f},
                       colour_wheel(i / 4.0 + static_cast<double>(size) / 64));
     b.draw_vertices(mesh, Topology::kPoints);
     x += size / 2 + 4;

@@ -11,7 +11,8 @@ using namespace command;
 
 class RandomScene {
  public:
-  RandomScene(SceneBuilder& b, std::uint64_t seed) : b_(b), random_(seed), with_depth_(random_target(seed).depth != DepthFormat::kNone) {}
+  RandomScene(SceneBuilder& b, std::uint64_t seed)
+      : b_(b), random_(seed), with_depth_(random_target(seed).depth != DepthFormat::kNone) {}
 
   void build() {
     b_.clear_to_background();
@@ -33,10 +34,11 @@ class RandomScene {
   float whole(float low, float high) { return std::floor(between(low, high)); }
 
   void set_windows() {
-    if (one_in(4)) b_.put(SetScissor{below(b_.width()), below(b_.height()), 1 + below(b_.width()), 1 + below(b_.height())});
     if (one_in(4))
-      b_.put(SetViewport{whole(-20, width() / 2), whole(-20, height() / 2), whole(1, width() * 1.5f + 1), whole(1, height() * 1.5f + 1),
-                         between(0, 1), between(0, 1)});
+      b_.put(SetScissor{below(b_.width()), below(b_.height()), 1 + below(b_.width()), 1 + below(b_.height())});
+    if (one_in(4))
+      b_.put(SetViewport{whole(-20, width() / 2), whole(-20, height() / 2), whole(1, width() * 1.5f + 1),
+                         whole(1, height() * 1.5f + 1), between(0, 1), between(0, 1)});
   }
 
   void set_state() {
@@ -56,7 +58,8 @@ class RandomScene {
     in_perspective_ = one_in(2);
     if (in_perspective_) {
       b_.set_transform(perspective(0.5 + 0.15 * below(10), b_.aspect(), 0.5, 20) *
-                       translation(between(-1, 1), between(-1, 1), between(-6, -1)) * rotation_x(static_cast<double>(between(-3, 3))) *
+                       translation(between(-1, 1), between(-1, 1), between(-6, -1)) *
+                       rotation_x(static_cast<double>(between(-3, 3))) *
                        rotation_y(static_cast<double>(between(-3, 3))));
     } else {
       b_.set_pixel_transform();
@@ -69,7 +72,8 @@ class RandomScene {
       return {between(-reach, reach), between(-reach, reach), between(-reach, reach)};
     }
     const float reach = one_in(8) ? 6.0f : 0.2f;  // beyond the target, in its sizes
-    Vec3 p{between(-width() * reach, width() * (1 + reach)), between(-height() * reach, height() * (1 + reach)), between(-0.1f, 1.1f)};
+    Vec3 p{between(-width() * reach, width() * (1 + reach)), between(-height() * reach, height() * (1 + reach)),
+           between(-0.1f, 1.1f)};
     if (one_in(3)) {  // edges through pixel centres and corners
       p.x = std::floor(p.x * 2) / 2;
       p.y = std::floor(p.y * 2) / 2;
@@ -83,7 +87,8 @@ class RandomScene {
     const bool small = !in_perspective_ && one_in(3);
     for (std::uint32_t i = 0; i < vertices; ++i) {
       const bool near_last = small && i > 0;
-      mesh.positions.push_back(near_last ? mesh.positions.back() + Vec3{between(-15, 15), between(-15, 15), between(-0.1f, 0.1f)} : place());
+      mesh.positions.push_back(
+          near_last ? mesh.positions.back() + Vec3{between(-15, 15), between(-15, 15), between(-0.1f, 0.1f)} : place());
       mesh.colours.push_back(Rgba8{random_.next()});
       mesh.normals.push_back(pack_normal(normalized({between(-1, 1), between(-1, 1), between(-1, 1)})));
     }

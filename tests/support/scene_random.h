@@ -10,8 +10,8 @@ namespace usuzumi::scenes {
 /// Target for a seed: up to 220 x 160 pixels, any formats, any padding.
 TargetSpec random_target(std::uint64_t seed);
 
-/// One to five draws of triangle topologies: with and without indices, in pixels and in perspective, with corners near, far
-/// and behind the eye, under any raster state, light, scissor and whole-pixel viewport. Now and then a new list.
+/// One to five draws of triangle topologies: with and without indices, in pixels and in perspective, with corners near,
+/// far and behind the eye, under any raster state, light, scissor and whole-pixel viewport. Now and then a new list.
 void build_random(SceneBuilder& b, std::uint64_t seed);
 
 }  // namespace usuzumi::scenes

@@ -7,8 +7,8 @@ namespace {
 
 using namespace command;
 
-constexpr Rgba8 kRed = rgba8(230, 60, 50), kGreen = rgba8(70, 200, 90), kBlue = rgba8(60, 110, 230), kWhite = rgba8(250, 250, 250),
-                kAmber = rgba8(255, 176, 0);
+constexpr Rgba8 kRed = rgba8(230, 60, 50), kGreen = rgba8(70, 200, 90), kBlue = rgba8(60, 110, 230),
+                kWhite = rgba8(250, 250, 250), kAmber = rgba8(255, 176, 0);
 
 void use_shading(SceneBuilder& b, ShadeModel model) {
   SetRasterState raster;
@@ -58,8 +58,8 @@ void build_single_triangle(SceneBuilder& b) {
   b.draw_vertices(mesh, Topology::kTriangles);
 }
 
-// Edges that run exactly through pixel centres and corners, each shared by two triangles: the top-left rule decides every
-// pixel on them, and no pixel may be left or taken twice.
+// Edges that run exactly through pixel centres and corners, each shared by two triangles: the top-left rule decides
+// every pixel on them, and no pixel may be left or taken twice.
 void build_shared_edges(SceneBuilder& b) {
   b.clear_to_background();
   b.set_pixel_transform();
@@ -102,7 +102,8 @@ void build_triangle_fan(SceneBuilder& b) {
   mesh.add_vertex({64, 64, 0.5f}, kWhite);
   for (std::uint32_t i = 0; i <= 20; ++i) {
     const double angle = 2 * kPi * (i % 20) / 20;
-    mesh.add_vertex({64 + static_cast<float>(50 * cosine(angle)), 64 + static_cast<float>(50 * sine(angle)), 0.5f}, colour_wheel(i % 20 / 20.0));
+    mesh.add_vertex({64 + static_cast<float>(50 * cosine(angle)), 64 + static_cast<float>(50 * sine(angle)), 0.5f},
+                    colour_wheel(i % 20 / 20.0));
   }
   b.draw_vertices(mesh, Topology::kTriangleFan);
 }
@@ -180,7 +181,8 @@ void build_culling(SceneBuilder& b) {
 void build_scissored_drawing(SceneBuilder& b) {
   b.clear_to_background();
   b.set_pixel_transform();
-  const SetScissor windows[] = {{5, 5, 37, 41}, {63, 17, 50, 64}, {17, 63, 33, 31}, {90, 90, 1000, 1000}, {120, 3, 1, 60}, {50, 50, 0, 0}};
+  const SetScissor windows[] = {{5, 5, 37, 41},       {63, 17, 50, 64}, {17, 63, 33, 31},
+                                {90, 90, 1000, 1000}, {120, 3, 1, 60},  {50, 50, 0, 0}};
   for (const SetScissor& window : windows) {
     b.put(window);
     b.draw_mesh(colour_hexagon({64, 56, 0.5f}, 70));
@@ -195,7 +197,8 @@ void build_slivers(SceneBuilder& b) {
   RandomSequence random(7);
   Mesh slivers;
   for (std::uint32_t i = 0; i < 40; ++i) {
-    const Vec3 from{random.between(4, 156), random.between(4, 70), 0.5f}, to{random.between(4, 156), random.between(4, 70), 0.5f};
+    const Vec3 from{random.between(4, 156), random.between(4, 70), 0.5f},
+        to{random.between(4, 156), random.between(4, 70), 0.5f};
     for (const Vec3& p : {from, to, to + Vec3{random.between(-0.9f, 0.9f), random.between(-0.9f, 0.9f), 0}})
       slivers.add_vertex(p, colour_wheel(i / 40.0));
   }
@@ -204,11 +207,13 @@ void build_slivers(SceneBuilder& b) {
   for (std::uint32_t i = 0; i < 600; ++i) {
     const Vec3 at{random.between(4, 156), random.between(74, 116), 0.5f};
     for (int corner = 0; corner < 3; ++corner)
-      dust.add_vertex(at + Vec3{random.between(-0.8f, 0.8f), random.between(-0.8f, 0.8f), 0}, colour_wheel(i % 12 / 12.0));
+      dust.add_vertex(at + Vec3{random.between(-0.8f, 0.8f), random.between(-0.8f, 0.8f), 0},
+                      colour_wheel(i % 12 / 12.0));
   }
   b.draw_vertices(dust, Topology::kTriangles);
   Mesh nothing;  // three corners in one place, and three in a row
-  for (const Vec3& p : {Vec3{20, 20, 0.5f}, Vec3{20, 20, 0.5f}, Vec3{20, 20, 0.5f}, Vec3{10, 10, 0.5f}, Vec3{50, 50, 0.5f}, Vec3{90, 90, 0.5f}})
+  for (const Vec3& p : {Vec3{20, 20, 0.5f}, Vec3{20, 20, 0.5f}, Vec3{20, 20, 0.5f}, Vec3{10, 10, 0.5f},
+                        Vec3{50, 50, 0.5f}, Vec3{90, 90, 0.5f}})
     nothing.add_vertex(p, kWhite);
   b.draw_vertices(nothing, Topology::kTriangles);
 }
@@ -240,7 +245,8 @@ void build_one_pixel(SceneBuilder& b) {
   b.draw_vertices(mesh, Topology::kTriangles);
 }
 
-// The second list clears nothing: it goes on with the first one's colours and depths, in front of some and behind others.
+// The second list clears nothing: it goes on with the first one's colours and depths, in front of some and behind
+// others.
 void build_two_lists(SceneBuilder& b) {
   SetRasterState raster;
   raster.depth_test = 1;

@@ -7,8 +7,9 @@ namespace {
 
 using namespace command;
 
-constexpr Rgba8 kPanel = rgba8(14, 18, 26), kRim = rgba8(92, 104, 124), kTick = rgba8(226, 232, 240), kNeedle = rgba8(255, 72, 40),
-                kGlow = rgba8(40, 150, 255), kAmber = rgba8(255, 176, 0), kGreen = rgba8(60, 214, 92), kRed = rgba8(240, 40, 40);
+constexpr Rgba8 kPanel = rgba8(14, 18, 26), kRim = rgba8(92, 104, 124), kTick = rgba8(226, 232, 240),
+                kNeedle = rgba8(255, 72, 40), kGlow = rgba8(40, 150, 255), kAmber = rgba8(255, 176, 0),
+                kGreen = rgba8(60, 214, 92), kRed = rgba8(240, 40, 40);
 
 SetLight light(Vec3 to_light, Vec3 ambient, Vec3 diffuse) { return {1, normalized(to_light), ambient, diffuse}; }
 
@@ -23,7 +24,8 @@ Vec3 around(Vec3 centre, double angle, float radius) {
   return centre + Vec3{static_cast<float>(sine(angle)), static_cast<float>(-cosine(angle)), 0} * radius;
 }
 
-// A ring, ticks, a glowing arc up to the value and the needle at it; `value` in [0, 1] runs over three quarters of a turn.
+// A ring, ticks, a glowing arc up to the value and the needle at it; `value` in [0, 1] runs over three quarters of a
+// turn.
 void add_gauge(Mesh& mesh, Vec3 centre, float radius, double value) {
   const double from = -0.75 * kPi, to = 0.75 * kPi, at = from + (to - from) * value;
   append(mesh, disc(centre, radius, 64, kPanel));
@@ -32,10 +34,12 @@ void add_gauge(Mesh& mesh, Vec3 centre, float radius, double value) {
   for (std::uint32_t i = 0; i <= 20; ++i) {
     const double angle = from + (to - from) * i / 20;
     const double half = i % 5 == 0 ? 0.022 : 0.01;
-    append(mesh, arc(centre, radius * (i % 5 == 0 ? 0.70f : 0.76f), radius * 0.83f, angle - half, angle + half, 1, i > 16 ? kRed : kTick));
+    append(mesh, arc(centre, radius * (i % 5 == 0 ? 0.70f : 0.76f), radius * 0.83f, angle - half, angle + half, 1,
+                     i > 16 ? kRed : kTick));
   }
-  append(mesh, convex({around(centre, at, radius * 0.8f), around(centre, at - 0.35, radius * 0.1f), around(centre, at + kPi, radius * 0.16f),
-                       around(centre, at + 0.35, radius * 0.1f)}, kNeedle));
+  append(mesh, convex({around(centre, at, radius * 0.8f), around(centre, at - 0.35, radius * 0.1f),
+                       around(centre, at + kPi, radius * 0.16f), around(centre, at + 0.35, radius * 0.1f)},
+                      kNeedle));
   append(mesh, disc(centre, radius * 0.09f, 24, kRim));
   append(mesh, disc(centre, radius * 0.05f, 20, kTick));
 }

@@ -1,4 +1,5 @@
-// A fixed piece of memory that is handed out from the front and given back by rewinding; the only allocator on the device.
+// A fixed piece of memory that is handed out from the front and given back by rewinding; the only allocator on the
+// device.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ class Arena {
   constexpr Arena() = default;
   constexpr explicit Arena(std::span<std::byte> memory) : memory_(memory) {}
 
-  /// `count` objects of T, uninitialised, aligned to `alignment` bytes; a span with data() == nullptr when they do not fit.
-  /// Zero objects succeed (empty span, data() != nullptr unless the arena has no memory at all).
+  /// `count` objects of T, uninitialised, aligned to `alignment` bytes; a span with data() == nullptr when they do not
+  /// fit. Zero objects succeed (empty span, data() != nullptr unless the arena has no memory at all).
   template <class T>
   std::span<T> allocate(std::size_t count, std::size_t alignment = alignof(T)) {
     static_assert(std::is_trivially_destructible_v<T>, "nothing in an arena is ever destroyed");

@@ -14,9 +14,11 @@ using BusAddress = std::uint32_t;
 
 class BusMemory {
  public:
-  /// The `size` bytes at `address` for reading; data() == nullptr when any of them is not memory. `size` 0 gives an empty
-  /// span with data() != nullptr only where the address is memory.
-  std::span<const std::byte> read_window(BusAddress address, std::size_t size) const { return do_read_window(address, size); }
+  /// The `size` bytes at `address` for reading; data() == nullptr when any of them is not memory. `size` 0 gives an
+  /// empty span with data() != nullptr only where the address is memory.
+  std::span<const std::byte> read_window(BusAddress address, std::size_t size) const {
+    return do_read_window(address, size);
+  }
   /// The same for writing; data() == nullptr for ROM as well.
   std::span<std::byte> write_window(BusAddress address, std::size_t size) { return do_write_window(address, size); }
 

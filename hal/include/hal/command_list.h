@@ -2,10 +2,10 @@
 //
 // A list is a run of 32-bit little-endian words. Each packet is a header word
 //     bits 31-24 opcode, bits 23-16 zero, bits 15-0 number of payload words that follow
-// and its payload, the struct below of the opcode's name, word by word. State packets hold until the next of their kind;
-// a list begins with no target, no streams, identity transform, lighting off and the defaults written in the structs.
-// The list ends with kEnd. Unknown opcodes, wrong lengths and values out of range stop the engine with an error that names
-// the word; what was drawn before stays drawn.
+// and its payload, the struct below of the opcode's name, word by word. State packets hold until the next of their
+// kind; a list begins with no target, no streams, identity transform, lighting off and the defaults written in the
+// structs. The list ends with kEnd. Unknown opcodes, wrong lengths and values out of range stop the engine with an
+// error that names the word; what was drawn before stays drawn.
 #pragma once
 
 #include <bit>
@@ -46,7 +46,9 @@ enum class DepthFormat : std::uint32_t {
   kUnorm16 = 1,  // 2 bytes; depth d in [0,1] is stored as floor(d * 65535 + 0.5)
   kUnorm24 = 2,  // 4 bytes, bits 23-0; floor(d * 16777215 + 0.5); bits 31-24 zero
 };
-constexpr std::uint32_t bytes_per_depth(DepthFormat f) { return f == DepthFormat::kNone ? 0 : (f == DepthFormat::kUnorm16 ? 2 : 4); }
+constexpr std::uint32_t bytes_per_depth(DepthFormat f) {
+  return f == DepthFormat::kNone ? 0 : (f == DepthFormat::kUnorm16 ? 2 : 4);
+}
 
 enum class ShadeModel : std::uint32_t { kFlat = 0, kGouraud = 1 };  // flat takes the last vertex of each primitive
 enum class CullMode : std::uint32_t { kNone = 0, kBack = 1, kFront = 2 };
@@ -55,8 +57,8 @@ enum class DepthFunction : std::uint32_t { kAlways = 0, kLess = 1, kLessEqual = 
 enum class Topology : std::uint32_t { kPoints = 0, kLines = 1, kTriangles = 2, kTriangleStrip = 3, kTriangleFan = 4 };
 enum class IndexFormat : std::uint32_t { kNone = 0, kU16 = 1, kU32 = 2 };
 
-/// Colour target. Rows of `width` pixels, `stride_bytes` apart, top row first. width and height 1..4096; base and stride
-/// multiples of 4 bytes; setting it resets viewport and scissor to the whole target.
+/// Colour target. Rows of `width` pixels, `stride_bytes` apart, top row first. width and height 1..4096; base and
+/// stride multiples of 4 bytes; setting it resets viewport and scissor to the whole target.
 struct SetColourTarget {
   BusAddress base = 0;
   std::uint32_t stride_bytes = 0;
@@ -89,8 +91,8 @@ struct SetTransform {
   Mat4 model_to_clip;
 };
 
-/// Per-vertex light, in model space: colour = base * min(1, ambient + diffuse * max(0, normal . to_light)), per channel.
-/// Where lighting is off, or the streams have no normals, colour = base.
+/// Per-vertex light, in model space: colour = base * min(1, ambient + diffuse * max(0, normal . to_light)), per
+/// channel. Where lighting is off, or the streams have no normals, colour = base.
 struct SetLight {
   std::uint32_t enabled = 0;
   Vec3 to_light{0, 0, 1};     // unit, from the surface towards the light
@@ -106,11 +108,12 @@ struct SetRasterState {
   std::uint32_t depth_test = 0;   // 0 or 1; without it depth is neither compared nor written
   std::uint32_t depth_write = 1;  // 0 or 1
   float point_size = 1;           // pixels, 1..64: an axis-aligned square around the vertex
-  float line_width = 1;           // pixels, 1..64: a parallelogram, widened along the minor axis; of the pixels at its ends
-                                  // those are drawn whose centre lies within it (OpenGL's diamond-exit rule is not applied)
+  float line_width = 1;  // pixels, 1..64: a parallelogram, widened along the minor axis; of the pixels at its ends
+                         // those are drawn whose centre lies within it (OpenGL's diamond-exit rule is not applied)
 };
 
-/// Where vertex data lies. Strides are multiples of 4. A zero address means the stream is absent (positions must be there).
+/// Where vertex data lies. Strides are multiples of 4. A zero address means the stream is absent (positions must be
+/// there).
 struct SetVertexStreams {
   std::uint32_t vertex_count = 0;
   BusAddress positions = 0;        // 3 singles each
@@ -184,7 +187,8 @@ class Writer {
   /// Ends the list; its words, or kResourceExhausted with the words' count in `where`.
   Result<std::span<const std::uint32_t>> finish() {
     if (full_ || used_ >= words_.size())
-      return Status{StatusCode::kResourceExhausted, "command list is full; give it more words", static_cast<std::uint32_t>(words_.size())};
+      return Status{StatusCode::kResourceExhausted, "command list is full; give it more words",
+                    static_cast<std::uint32_t>(words_.size())};
     words_[used_++] = header_word(Opcode::kEnd, 0);
     return std::span<const std::uint32_t>(words_.first(used_));
   }

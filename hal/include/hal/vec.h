@@ -40,14 +40,16 @@ struct Mat4 {
 
 constexpr Vec4 transform_point(const Mat4& a, Vec3 p) {
   return {a.m[0] * p.x + a.m[1] * p.y + a.m[2] * p.z + a.m[3], a.m[4] * p.x + a.m[5] * p.y + a.m[6] * p.z + a.m[7],
-          a.m[8] * p.x + a.m[9] * p.y + a.m[10] * p.z + a.m[11], a.m[12] * p.x + a.m[13] * p.y + a.m[14] * p.z + a.m[15]};
+          a.m[8] * p.x + a.m[9] * p.y + a.m[10] * p.z + a.m[11],
+          a.m[12] * p.x + a.m[13] * p.y + a.m[14] * p.z + a.m[15]};
 }
 
 constexpr Mat4 operator*(const Mat4& a, const Mat4& b) {
   Mat4 r;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
-      r.m[4 * i + j] = a.m[4 * i] * b.m[j] + a.m[4 * i + 1] * b.m[4 + j] + a.m[4 * i + 2] * b.m[8 + j] + a.m[4 * i + 3] * b.m[12 + j];
+      r.m[4 * i + j] = a.m[4 * i] * b.m[j] + a.m[4 * i + 1] * b.m[4 + j] + a.m[4 * i + 2] * b.m[8 + j] +
+                       a.m[4 * i + 3] * b.m[12 + j];
   return r;
 }
 
@@ -64,8 +66,8 @@ constexpr Rgba8 rgba8(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::ui
   return {r | g << 8 | b << 16 | a << 24};
 }
 
-/// A unit normal in 32 bits: x, y, z as two's complement 10-bit fields at bits 0, 10, 20, each c / 511; bits 30-31 zero.
-/// Worst angular error about 0.1 degrees.
+/// A unit normal in 32 bits: x, y, z as two's complement 10-bit fields at bits 0, 10, 20, each c / 511; bits 30-31
+/// zero. Worst angular error about 0.1 degrees.
 struct PackedNormal {
   std::uint32_t bits = 511u << 20;
   friend constexpr bool operator==(PackedNormal, PackedNormal) = default;

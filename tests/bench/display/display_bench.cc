@@ -1,7 +1,7 @@
 // Scan-out on the host: frames a second of 1920 x 720 with two layers, the upper one blended by its own alpha.
 //
-// One iteration is one frame: 720 picture lines composed, signed where the benchmark says so, and sent. The issue asks for
-// 60 frames a second on one core.
+// One iteration is one frame: 720 picture lines composed, signed where the benchmark says so, and sent. The issue asks
+// for 60 frames a second on one core.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -84,9 +84,10 @@ void show_two_layers(DisplayDriver& driver, bool sign) {
                        .per_pixel_alpha = format == LayerFormat::kArgb8888};
   };
   const BusAddress upper = kVramBase + static_cast<BusAddress>(kPixels * 4);
-  const bool ok = driver.set_mode(kMode).ok() && driver.configure_layer(0, layer(LayerFormat::kXrgb8888, kVramBase)).ok() &&
-                  driver.configure_layer(1, layer(LayerFormat::kArgb8888, upper)).ok() && driver.show_layer(0, true).ok() &&
-                  driver.show_layer(1, true).ok();
+  const bool ok = driver.set_mode(kMode).ok() &&
+                  driver.configure_layer(0, layer(LayerFormat::kXrgb8888, kVramBase)).ok() &&
+                  driver.configure_layer(1, layer(LayerFormat::kArgb8888, upper)).ok() &&
+                  driver.show_layer(0, true).ok() && driver.show_layer(1, true).ok();
   driver.enable_picture_signature(sign);
   if (!ok || !driver.enable().ok()) std::abort();
 }

@@ -17,7 +17,8 @@ void add_grid(BenchScene& s, std::uint32_t columns, std::uint32_t rows, float z,
   const auto base = static_cast<std::uint32_t>(s.positions.size());
   for (std::uint32_t j = 0; j <= rows; ++j)
     for (std::uint32_t i = 0; i <= columns; ++i) {
-      const float u = static_cast<float>(i) / static_cast<float>(columns), v = static_cast<float>(j) / static_cast<float>(rows);
+      const float u = static_cast<float>(i) / static_cast<float>(columns),
+                  v = static_cast<float>(j) / static_cast<float>(rows);
       s.positions.push_back({u * 2 - 1, v * 2 - 1, z + relief * std::sin(u * 12) * std::cos(v * 10)});
       s.colours.push_back(colour_at(u + z, v));
     }
@@ -34,7 +35,8 @@ void add_sphere(BenchScene& s, std::uint32_t faces) {
   const std::uint32_t segments = 2 * rings;
   for (std::uint32_t j = 0; j <= rings; ++j)
     for (std::uint32_t i = 0; i <= segments; ++i) {
-      const float u = static_cast<float>(i) / static_cast<float>(segments), v = static_cast<float>(j) / static_cast<float>(rings);
+      const float u = static_cast<float>(i) / static_cast<float>(segments),
+                  v = static_cast<float>(j) / static_cast<float>(rings);
       const float theta = v * std::numbers::pi_v<float>, phi = u * 2 * std::numbers::pi_v<float>;
       s.positions.push_back({std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)});
       s.colours.push_back(colour_at(u, v));
@@ -45,7 +47,8 @@ void add_sphere(BenchScene& s, std::uint32_t faces) {
       s.indices.insert(s.indices.end(), {a, b, d, a, d, c});
     }
   const float aspect = static_cast<float>(s.width) / static_cast<float>(s.height), focal = 2.2f, near = 1, far = 5;
-  const Mat4 projection{{focal / aspect, 0, 0, 0, 0, focal, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * near / (near - far), 0, 0, -1, 0}};
+  const Mat4 projection{{focal / aspect, 0, 0, 0, 0, focal, 0, 0, 0, 0, (far + near) / (near - far),
+                         2 * far * near / (near - far), 0, 0, -1, 0}};
   const float c = std::cos(0.4f), n = std::sin(0.4f);
   s.transform = projection * Mat4{{1, 0, 0, 0, 0, c, -n, 0, 0, n, c, -2.6f, 0, 0, 0, 1}};
 }
@@ -75,8 +78,10 @@ std::vector<BenchScene> all_bench_scenes() {
     begin("clear", false).clear_only = true;
     for (const bool flat : {true, false}) {
       add_grid(begin("quad", flat), 1, 1, 0, 0);
-      for (const std::uint32_t thousands : {2u, 20u, 200u}) add_grid_of(begin("grid_" + std::to_string(thousands) + "k", flat), thousands * 1000);
-      for (const std::uint32_t thousands : {2u, 20u, 200u}) add_sphere(begin("sphere_" + std::to_string(thousands) + "k", flat), thousands * 1000);
+      for (const std::uint32_t thousands : {2u, 20u, 200u})
+        add_grid_of(begin("grid_" + std::to_string(thousands) + "k", flat), thousands * 1000);
+      for (const std::uint32_t thousands : {2u, 20u, 200u})
+        add_sphere(begin("sphere_" + std::to_string(thousands) + "k", flat), thousands * 1000);
       add_grid_of(begin("tiny_1M", flat), 1000000);
       BenchScene& layers = begin("overdraw_8x", flat);
       for (int k = 0; k < 8; ++k) add_grid(layers, 1, 1, 0.8f - 0.2f * static_cast<float>(k), 0);

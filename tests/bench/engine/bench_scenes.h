@@ -20,8 +20,9 @@ struct BenchScene {
   std::vector<std::uint32_t> indices;  // triangles
 };
 
-/// Clear, full-screen quad, grids and spheres of 2 k, 20 k and 200 k triangles, 1 M tiny triangles, 8 layers back to front;
-/// flat and Gouraud, at 800x480 and 1920x720. Every scene clears colour and depth first and draws with the depth test.
+/// Clear, full-screen quad, grids and spheres of 2 k, 20 k and 200 k triangles, 1 M tiny triangles, 8 layers back to
+/// front; flat and Gouraud, at 800x480 and 1920x720. Every scene clears colour and depth first and draws with the depth
+/// test.
 std::vector<BenchScene> all_bench_scenes();
 
 }  // namespace usuzumi::bench

@@ -55,7 +55,8 @@ double share_different(const BenchScene& s, const std::uint32_t* ours, const std
   std::size_t different = 0;
   for (std::uint32_t y = 0; y < s.height; ++y)
     for (std::uint32_t x = 0; x < s.width; ++x) {
-      const std::uint32_t a = ours[std::size_t{y} * s.width + x], b = theirs[std::size_t{s.height - 1 - y} * s.width + x];
+      const std::uint32_t a = ours[std::size_t{y} * s.width + x],
+                          b = theirs[std::size_t{s.height - 1 - y} * s.width + x];
       for (int shift = 0; shift < 24; shift += 8)
         if (std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)) > 3) {
           ++different;
@@ -77,7 +78,8 @@ void run_scene(benchmark::State& state, const BenchScene& scene, Means& means) {
   SoftSubject one(scene, nullptr, forced_kernels()), two(scene, &two_threads, forced_kernels());
   std::unique_ptr<LlvmpipePeer> peer;
   if (std::getenv("USUZUMI_BENCH_ONLY_OURS") == nullptr) peer = std::make_unique<LlvmpipePeer>(scene);
-  if (peer && peer->renderer().find("llvmpipe") == std::string::npos) return state.SkipWithError("the peer is not llvmpipe");
+  if (peer && peer->renderer().find("llvmpipe") == std::string::npos)
+    return state.SkipWithError("the peer is not llvmpipe");
   one.draw();
   two.draw();
   if (peer) {
@@ -86,8 +88,8 @@ void run_scene(benchmark::State& state, const BenchScene& scene, Means& means) {
     state.counters["differ_%"] = different * 100;
     if (different > 0.01) return state.SkipWithError("the two pictures differ in more than 1 % of the pixels");
   }
-  // A device draws frame upon frame: each side draws a few in a row, so that no side's first frame after the other's, with
-  // cold caches and threads asleep, stands for all.
+  // A device draws frame upon frame: each side draws a few in a row, so that no side's first frame after the other's,
+  // with cold caches and threads asleep, stands for all.
   const int frames = static_cast<int>(kBatchMs / milliseconds([&] { one.draw(); })) + 1;
   const auto frame_ms = [frames](auto& subject) {
     return milliseconds([&] {
@@ -128,8 +130,11 @@ int main(int argc, char** argv) {
         ->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(frames);
   }
   benchmark::RunSpecifiedBenchmarks();
-  std::printf("geometric mean over %d scenes: llvmpipe / ours, one thread: %.2f (800x480 %.2f, 1920x720 %.2f); second thread: %.2f\n",
-              means.second_thread.count, means.ratio.value(), means.ratio_small_size.value(), means.ratio_large_size.value(), means.second_thread.value());
+  std::printf(
+      "geometric mean over %d scenes: llvmpipe / ours, one thread: %.2f (800x480 %.2f, 1920x720 %.2f); second thread: "
+      "%.2f\n",
+      means.second_thread.count, means.ratio.value(), means.ratio_small_size.value(), means.ratio_large_size.value(),
+      means.second_thread.value());
   benchmark::Shutdown();
   return 0;
 }

@@ -15,10 +15,12 @@ void LlvmpipePeer::choose_driver() {
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
 }
 
-LlvmpipePeer::LlvmpipePeer(const BenchScene& scene) : scene_(scene), context_(OSMesaCreateContextExt(OSMESA_BGRA, 24, 0, 0, nullptr)) {
+LlvmpipePeer::LlvmpipePeer(const BenchScene& scene)
+    : scene_(scene), context_(OSMesaCreateContextExt(OSMESA_BGRA, 24, 0, 0, nullptr)) {
   pixels_.resize(std::size_t{scene.width} * scene.height);
-  if (context_ == nullptr || OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE, static_cast<GLsizei>(scene.width),
-                                               static_cast<GLsizei>(scene.height)) == GL_FALSE)
+  if (context_ == nullptr ||
+      OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE,
+                        static_cast<GLsizei>(scene.width), static_cast<GLsizei>(scene.height)) == GL_FALSE)
     throw std::runtime_error("OSMesa has no context to give");
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   glEnable(GL_DEPTH_TEST);
@@ -34,22 +36,26 @@ LlvmpipePeer::LlvmpipePeer(const BenchScene& scene) : scene_(scene), context_(OS
   if (scene.clear_only) return;
   glGenBuffers(3, buffers_);
   glBindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.positions.size() * sizeof(Vec3)), scene.positions.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.positions.size() * sizeof(Vec3)), scene.positions.data(),
+               GL_STATIC_DRAW);
   glEnableClientState(GL_VERTEX_ARRAY);
   glVertexPointer(3, GL_FLOAT, 0, nullptr);
   glBindBuffer(GL_ARRAY_BUFFER, buffers_[1]);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.colours.size() * sizeof(Rgba8)), scene.colours.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.colours.size() * sizeof(Rgba8)), scene.colours.data(),
+               GL_STATIC_DRAW);
   glEnableClientState(GL_COLOR_ARRAY);
   glColorPointer(4, GL_UNSIGNED_BYTE, 0, nullptr);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[2]);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.indices.size() * 4), scene.indices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.indices.size() * 4), scene.indices.data(),
+               GL_STATIC_DRAW);
 }
 
 LlvmpipePeer::~LlvmpipePeer() { OSMesaDestroyContext(static_cast<OSMesaContext>(context_)); }
 
 void LlvmpipePeer::draw() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  if (!scene_.clear_only) glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(scene_.indices.size()), GL_UNSIGNED_INT, nullptr);
+  if (!scene_.clear_only)
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(scene_.indices.size()), GL_UNSIGNED_INT, nullptr);
   glFinish();
 }
 

@@ -1,6 +1,6 @@
-// The peer: OSMesa's llvmpipe, driven directly in the fastest sane way. Vertices and indices lie in static buffer objects,
-// the state is set once, a frame is glClear, glDrawElements, glFinish; lighting is off as it is in ours. The frame ends when
-// the picture is in the buffer given to OSMesa.
+// The peer: OSMesa's llvmpipe, driven directly in the fastest sane way. Vertices and indices lie in static buffer
+// objects, the state is set once, a frame is glClear, glDrawElements, glFinish; lighting is off as it is in ours. The
+// frame ends when the picture is in the buffer given to OSMesa.
 #pragma once
 
 #include <cstdint>

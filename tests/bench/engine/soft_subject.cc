@@ -10,7 +10,8 @@ using namespace command;
 std::span<const std::byte> SoftSubject::Memory::do_read_window(BusAddress address, std::size_t size) const {
   const std::span<const std::byte> m = address >= kVram ? std::span<const std::byte>(vram) : ram;
   const std::size_t at = address - (address >= kVram ? kVram : kRam);
-  return at > m.size() || size > m.size() - at ? std::span<const std::byte>{} : std::span<const std::byte>(m.data() + at, size);
+  return at > m.size() || size > m.size() - at ? std::span<const std::byte>{}
+                                               : std::span<const std::byte>(m.data() + at, size);
 }
 
 std::span<std::byte> SoftSubject::Memory::do_write_window(BusAddress address, std::size_t size) {
@@ -29,7 +30,8 @@ SoftSubject::SoftSubject(const BenchScene& scene, gfx::ParallelRunner* runner, c
   const std::uint32_t plane = scene.width * scene.height * 4;
   constexpr std::size_t kLine = 64;
   vram_.resize(std::size_t{2} * plane + kLine);
-  memory_.vram = std::span(vram_).subspan((kLine - reinterpret_cast<std::uintptr_t>(vram_.data()) % kLine) % kLine, std::size_t{2} * plane);
+  memory_.vram = std::span(vram_).subspan((kLine - reinterpret_cast<std::uintptr_t>(vram_.data()) % kLine) % kLine,
+                                          std::size_t{2} * plane);
   Writer list(words_);
   list.put(SetColourTarget{kVram, scene.width * 4, scene.width, scene.height, PixelFormat::kXrgb8888});
   list.put(SetDepthTarget{kVram + plane, scene.width * 4, DepthFormat::kUnorm24});
@@ -45,7 +47,8 @@ SoftSubject::SoftSubject(const BenchScene& scene, gfx::ParallelRunner* runner, c
     list.put(SetTransform{scene.transform});
     list.put(raster);
     list.put(streams);
-    list.put(Draw{Topology::kTriangles, IndexFormat::kU32, upload(scene.indices), 0, static_cast<std::uint32_t>(scene.indices.size())});
+    list.put(Draw{Topology::kTriangles, IndexFormat::kU32, upload(scene.indices), 0,
+                  static_cast<std::uint32_t>(scene.indices.size())});
   }
   const auto finished = list.finish();
   if (!finished.ok()) throw std::runtime_error(finished.status().message);

@@ -240,7 +240,8 @@ bool agrees_with(const Part& part, const std::array<Point, 3>& face, double tole
   bool agrees = false;
   for (const Point p : {centroid, (centroid + face[0]) * 0.5, (centroid + face[1]) * 0.5, (centroid + face[2]) * 0.5}) {
     const double reach = std::sqrt(part.index.nearest(p).squared_distance) + tolerance;
-    part.index.within(p, reach, [&](std::uint32_t f) { agrees = agrees || dot(area_vector(corners_of(part.mesh, f)), normal) > 0; });
+    part.index.within(
+        p, reach, [&](std::uint32_t f) { agrees = agrees || dot(area_vector(corners_of(part.mesh, f)), normal) > 0; });
   }
   return agrees;
 }

@@ -13,7 +13,8 @@ struct Point {
   double x = 0, y = 0, z = 0;
 };
 
-/// Squared distance from `p` to the nearest point of the triangle; a degenerate one counts as the segment or point it is.
+/// Squared distance from `p` to the nearest point of the triangle; a degenerate one counts as the segment or point it
+/// is.
 double squared_distance_to_triangle(Point p, Point a, Point b, Point c);
 
 /// Nearest faces of a mesh by a tree of boxes.
@@ -65,12 +66,14 @@ void SurfaceIndex::within(Point p, double distance, Visit visit) const {
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = triangles_[i];
-      if (squared_distance_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]) <= distance * distance) visit(t.face);
+      if (squared_distance_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]) <= distance * distance)
+        visit(t.face);
     }
   }
 }
 
-/// `count` points spread evenly over the surface's area (one at random in each of `count` equal shares), fixed by `seed`.
+/// `count` points spread evenly over the surface's area (one at random in each of `count` equal shares), fixed by
+/// `seed`.
 std::vector<Point> area_uniform_samples(const testing::Mesh& mesh, std::size_t count, std::uint64_t seed);
 
 struct SurfaceError {
@@ -81,8 +84,8 @@ struct SurfaceError {
 SurfaceError measure_error(const testing::Mesh& a, const testing::Mesh& b, std::size_t samples = 200000,
                            std::uint64_t seed = 1);
 
-/// Gives every part its own colour; a part is what shared vertices hold together. Thinning carries colours along, and joins
-/// no parts, so that the colour still tells which part a thinned face is of.
+/// Gives every part its own colour; a part is what shared vertices hold together. Thinning carries colours along, and
+/// joins no parts, so that the colour still tells which part a thinned face is of.
 void paint_parts(testing::Mesh& mesh);
 
 /// Faces of `thinned` that look the wrong way: at its centroid and at three points half-way from there to its corners,

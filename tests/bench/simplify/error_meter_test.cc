@@ -94,7 +94,8 @@ TEST(SurfaceError, OfAShiftedPlaneIsTheShift) {
 
 TEST(SurfaceError, LooksBothWays) {
   // A square of side 4 and its quarter: nothing of the quarter is off the square, but the far corner is sqrt(8) off the
-  // quarter. Over the square, the mean squared distance is 16/3: by quarters of its area 0, 4/3, 4/3 and 8/3 summed / 4.
+  // quarter. Over the square, the mean squared distance is 16/3: by quarters of its area 0, 4/3, 4/3 and 8/3 summed
+  // / 4.
   const Mesh square = testing::grid(4, 4), quarter = testing::grid(2, 2);
   const SurfaceError error = measure_error(quarter, square, 100000);
   EXPECT_NEAR(error.hausdorff, std::sqrt(8.0), 1e-6);
@@ -117,10 +118,12 @@ TEST(FlippedFaces, AreLookedForInTheirOwnPartOnly) {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i < sides; ++i) {
       const float angle = static_cast<float>(i) * 6.2831853f / static_cast<float>(sides);
-      for (const float z : {0.0f, 4.0f}) mesh.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      for (const float z : {0.0f, 4.0f})
+        mesh.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
     }
     for (int i = 0; i < sides; ++i) {
-      const std::uint32_t a = base + 2 * static_cast<std::uint32_t>(i), b = base + 2 * static_cast<std::uint32_t>((i + 1) % sides);
+      const std::uint32_t a = base + 2 * static_cast<std::uint32_t>(i),
+                          b = base + 2 * static_cast<std::uint32_t>((i + 1) % sides);
       if (outwards) mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
       else mesh.indices.insert(mesh.indices.end(), {a, b + 1, b, a, a + 1, b + 1});
     }

@@ -71,8 +71,8 @@ std::vector<Model> load_models() {
       models.push_back({name, *std::move(mesh)});
     } else {
       std::fprintf(stderr,
-                   "SKIPPED: model %s: cannot read %s (set USUZUMI_MODELS; install assimp-testmodels and xz-utils)\n", name,
-                   path.c_str());
+                   "SKIPPED: model %s: cannot read %s (set USUZUMI_MODELS; install assimp-testmodels and xz-utils)\n",
+                   name, path.c_str());
     }
   }
   return models;

@@ -1,8 +1,8 @@
 // usuzumi_bench_simplify: level-3 thinning against libmeshoptimizer's meshopt_simplify, to the same number of faces.
 //
-// Each benchmark runs both in turn in the same process; its time is ours, its counters are the ratios (ours / theirs) of
-// the least times, of root-mean-square and Hausdorff distances, and what else the result is held to. After the last one
-// their geometric means are printed, and how the time per face grows with the size of the mesh.
+// Each benchmark runs both in turn in the same process; its time is ours, its counters are the ratios (ours / theirs)
+// of the least times, of root-mean-square and Hausdorff distances, and what else the result is held to. After the last
+// one their geometric means are printed, and how the time per face grows with the size of the mesh.
 #include <benchmark/benchmark.h>
 #include <meshoptimizer.h>
 
@@ -44,7 +44,8 @@ void run_ours(const Mesh& input, std::size_t target_faces, std::vector<std::byte
   Arena scratch(memory);
   firmware::WorkingMesh working{run.mesh.positions, {}, run.mesh.colours, run.mesh.indices, vertices, faces};
   const auto start = std::chrono::steady_clock::now();
-  const auto outcome = firmware::simplify_qem(working, {.target_faces = static_cast<std::uint32_t>(target_faces)}, scratch);
+  const auto outcome =
+      firmware::simplify_qem(working, {.target_faces = static_cast<std::uint32_t>(target_faces)}, scratch);
   run.ms = std::min(run.ms, milliseconds_since(start));
   run.outcome = outcome.value();
   run.scratch_bytes = scratch.high_water();
@@ -57,9 +58,9 @@ void run_theirs(const Mesh& input, std::size_t target_faces, Run& run) {
   run.mesh = input;
   std::vector<unsigned> indices(input.indices.size());
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t count =
-      meshopt_simplify(indices.data(), input.indices.data(), input.indices.size(), &input.positions[0].x,
-                       input.positions.size(), sizeof(Vec3), target_faces * 3, std::numeric_limits<float>::max(), 0, nullptr);
+  const std::size_t count = meshopt_simplify(indices.data(), input.indices.data(), input.indices.size(),
+                                             &input.positions[0].x, input.positions.size(), sizeof(Vec3),
+                                             target_faces * 3, std::numeric_limits<float>::max(), 0, nullptr);
   run.ms = std::min(run.ms, milliseconds_since(start));
   run.mesh.indices.assign(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(count));
 }
@@ -67,8 +68,9 @@ void run_theirs(const Mesh& input, std::size_t target_faces, Run& run) {
 struct Row {
   std::string name;
   double time = 0, rms = 0, hausdorff = 0, scratch = 0;
-  // Flipped: nothing of their part of the model that is as near as the Hausdorff distance looks their way (nothing was moved
-  // further than that). Near ones: nothing as near as the root-mean-square distance, as in walls that are thinner than it.
+  // Flipped: nothing of their part of the model that is as near as the Hausdorff distance looks their way (nothing was
+  // moved further than that). Near ones: nothing as near as the root-mean-square distance, as in walls that are thinner
+  // than it.
   std::size_t flipped = 0, flipped_theirs = 0, flipped_near = 0, flipped_near_theirs = 0;
   std::size_t new_non_manifold = 0, faces = 0, faces_theirs = 0, target = 0;
   double ours_ms = 0, theirs_ms = 0;
@@ -76,13 +78,15 @@ struct Row {
 std::vector<Row> rows;
 
 // Both results once more with every part in a colour of its own (not timed: meshopt_simplify carries no attributes).
-void count_flipped(Row& row, const Mesh& input, const Mesh& ours, const Mesh& theirs, const SurfaceError& e, const SurfaceError& e0) {
+void count_flipped(Row& row, const Mesh& input, const Mesh& ours, const Mesh& theirs, const SurfaceError& e,
+                   const SurfaceError& e0) {
   Mesh painted = input;
   paint_parts(painted);
   std::vector<std::byte> memory;
   Run again;
   run_ours(painted, ours.face_count(), memory, again);
-  if (again.mesh.positions != ours.positions) std::fprintf(stderr, "%s: colours changed the result\n", row.name.c_str());
+  if (again.mesh.positions != ours.positions)
+    std::fprintf(stderr, "%s: colours changed the result\n", row.name.c_str());
   Mesh theirs_painted = theirs;  // its vertices are the input's
   theirs_painted.colours = painted.colours;
   row.flipped = count_flipped_faces(painted, again.mesh, e.hausdorff);
@@ -97,7 +101,8 @@ Row compare(const Model& model, double percent) {
   std::vector<std::byte> memory;
   Run ours, theirs;
   // To the same count: either may stop short of the target, theirs for want of slack in its passes, ours because the
-  // surface's topology allows no less (a closed part keeps four faces). Both are then measured at the higher of the two.
+  // surface's topology allows no less (a closed part keeps four faces). Both are then measured at the higher of the
+  // two.
   run_theirs(input, target, theirs);
   run_ours(input, theirs.mesh.face_count(), memory, ours);
   const std::size_t reached = std::max(theirs.mesh.face_count(), ours.mesh.face_count());
@@ -186,13 +191,13 @@ double geometric_mean(double Row::*value) {
 
 void print_report() {
   if (!rows.empty()) {
-    std::printf("\n%-15s %7s %8s %9s | %8s %8s %8s | %8s %6s %10s %12s\n", "ours / meshopt", "faces", "ours ms", "theirs ms",
-                "time", "rms", "hausdorf", "B/vertex", "nonman", "flipped", "within rms");
+    std::printf("\n%-15s %7s %8s %9s | %8s %8s %8s | %8s %6s %10s %12s\n", "ours / meshopt", "faces", "ours ms",
+                "theirs ms", "time", "rms", "hausdorf", "B/vertex", "nonman", "flipped", "within rms");
     Row sum;
     for (const Row& r : rows) {
-      std::printf("%-15s %7zu %8.2f %9.2f | %7.3fx %7.3fx %7.3fx | %8.1f %6zu %4zu (%zu) %6zu (%zu)%s\n", r.name.c_str(), r.faces,
-                  r.ours_ms, r.theirs_ms, r.time, r.rms, r.hausdorff, r.scratch, r.new_non_manifold, r.flipped, r.flipped_theirs,
-                  r.flipped_near, r.flipped_near_theirs,
+      std::printf("%-15s %7zu %8.2f %9.2f | %7.3fx %7.3fx %7.3fx | %8.1f %6zu %4zu (%zu) %6zu (%zu)%s\n",
+                  r.name.c_str(), r.faces, r.ours_ms, r.theirs_ms, r.time, r.rms, r.hausdorff, r.scratch,
+                  r.new_non_manifold, r.flipped, r.flipped_theirs, r.flipped_near, r.flipped_near_theirs,
                   r.faces > r.target + 2 ? ("  stopped above the " + std::to_string(r.target) + " asked").c_str() : "");
       sum.new_non_manifold += r.new_non_manifold;
       sum.flipped += r.flipped;
@@ -201,11 +206,13 @@ void print_report() {
       sum.flipped_near_theirs += r.flipped_near_theirs;
       sum.scratch = std::max(sum.scratch, r.scratch);
     }
-    std::printf("%-15s %7s %8s %9s | %7.3fx %7.3fx %7.3fx | %8.1f %6zu %4zu (%zu) %6zu (%zu)   geometric means; largest; sums\n", "all", "",
-                "", "", geometric_mean(&Row::time), geometric_mean(&Row::rms), geometric_mean(&Row::hausdorff), sum.scratch,
-                sum.new_non_manifold, sum.flipped, sum.flipped_theirs, sum.flipped_near, sum.flipped_near_theirs);
-    std::printf("%-15s %7s %8s %9s | %8s %8s %8s | %8s %6s %4s   flipped: ours (theirs)\n", "asked", "", "", "", "<=2x", "<=0.65x", "<=1.0x",
-                "<=128", "0", "0");
+    std::printf(
+        "%-15s %7s %8s %9s | %7.3fx %7.3fx %7.3fx | %8.1f %6zu %4zu (%zu) %6zu (%zu)   geometric means; largest; "
+        "sums\n",
+        "all", "", "", "", geometric_mean(&Row::time), geometric_mean(&Row::rms), geometric_mean(&Row::hausdorff),
+        sum.scratch, sum.new_non_manifold, sum.flipped, sum.flipped_theirs, sum.flipped_near, sum.flipped_near_theirs);
+    std::printf("%-15s %7s %8s %9s | %8s %8s %8s | %8s %6s %4s   flipped: ours (theirs)\n", "asked", "", "", "", "<=2x",
+                "<=0.65x", "<=1.0x", "<=128", "0", "0");
   }
   if (!scale_points.empty()) {
     std::printf("\nns per input face, thinned to 10 %%:");

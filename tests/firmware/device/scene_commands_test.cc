@@ -21,16 +21,19 @@ class TestBus final : public BusMemory, public AddressTranslation {
 
  private:
   std::span<const std::byte> do_read_window(BusAddress address, std::size_t size) const override {
-    if (address >= 0x50000000 && address - 0x50000000 + size <= ram_bytes_) return {ram_ + (address - 0x50000000), size};
+    if (address >= 0x50000000 && address - 0x50000000 + size <= ram_bytes_)
+      return {ram_ + (address - 0x50000000), size};
     return {};
   }
   std::span<std::byte> do_write_window(BusAddress address, std::size_t size) override {
-    if (address >= 0x80000000 && address - 0x80000000 + size <= vram_.size()) return {vram_.data() + (address - 0x80000000), size};
+    if (address >= 0x80000000 && address - 0x80000000 + size <= vram_.size())
+      return {vram_.data() + (address - 0x80000000), size};
     return {};
   }
   BusAddress do_bus_address(const void* pointer) const override {
     const auto offset = static_cast<const std::byte*>(pointer) - ram_;
-    return offset >= 0 && static_cast<std::size_t>(offset) < ram_bytes_ ? 0x50000000 + static_cast<BusAddress>(offset) : 0;
+    return offset >= 0 && static_cast<std::size_t>(offset) < ram_bytes_ ? 0x50000000 + static_cast<BusAddress>(offset)
+                                                                        : 0;
   }
   const std::byte* ram_;
   std::size_t ram_bytes_;
@@ -51,14 +54,16 @@ class Recorder final : public gfx::CommandSink {
     return ok_status();
   }
   Status draw(const gfx::EngineState& state, const gfx::DrawCall& call) override {
-    draws.push_back({call.draw, state.streams.vertex_count, state.raster.cull, !state.normals.empty(), !state.colours.empty()});
+    draws.push_back(
+        {call.draw, state.streams.vertex_count, state.raster.cull, !state.normals.empty(), !state.colours.empty()});
     return ok_status();
   }
   std::vector<command::Clear> clears;
   std::vector<Recorded> draws;
 };
 
-constexpr firmware::FrameTarget kTarget{0x80000000, 448, command::PixelFormat::kXrgb8888, 0x80040000, 448, command::DepthFormat::kUnorm24};
+constexpr firmware::FrameTarget kTarget{0x80000000, 448, command::PixelFormat::kXrgb8888,
+                                        0x80040000, 448, command::DepthFormat::kUnorm24};
 
 TEST(SceneCommands, DrawEveryMeshOfTheCopyInOrderAfterOneClear) {
   auto coloured = square(0.5f, 1);
@@ -85,7 +90,8 @@ TEST(SceneCommands, DrawEveryMeshOfTheCopyInOrderAfterOneClear) {
   EXPECT_TRUE(recorder.draws[0].has_colours);
   EXPECT_TRUE(recorder.draws[0].has_normals);
   EXPECT_EQ(recorder.draws[1].draw.topology, command::Topology::kTriangles);
-  EXPECT_EQ(recorder.draws[1].draw.index_format, command::IndexFormat::kU16) << "indices of a small mesh take two bytes";
+  EXPECT_EQ(recorder.draws[1].draw.index_format, command::IndexFormat::kU16)
+      << "indices of a small mesh take two bytes";
   EXPECT_EQ(recorder.draws[1].draw.count, 3 * bench.copy().mesh(2).faces);
   EXPECT_EQ(recorder.draws[1].cull, command::CullMode::kBack);
   EXPECT_EQ(recorder.draws[2].draw.topology, command::Topology::kPoints);
@@ -98,7 +104,8 @@ TEST(SceneCommands, TheWordsAskedForAreEnoughAndOneFewerMeshIsNot) {
   std::vector<std::uint32_t> words(firmware::scene_command_words(3));
   EXPECT_TRUE(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).ok());
   words.resize(firmware::scene_command_words(2));
-  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code, StatusCode::kResourceExhausted);
+  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code,
+            StatusCode::kResourceExhausted);
 }
 
 TEST(SceneCommands, ACopyOutsideTheBusIsRefused) {
@@ -107,11 +114,13 @@ TEST(SceneCommands, ACopyOutsideTheBusIsRefused) {
   const std::byte elsewhere[4] = {};
   TestBus bus(elsewhere, sizeof elsewhere);
   std::vector<std::uint32_t> words(firmware::scene_command_words(1));
-  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code, StatusCode::kFailedPrecondition);
+  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code,
+            StatusCode::kFailedPrecondition);
 }
 
 TEST(VramLayout, HoldsTwoPicturesAndDepthOnTheSmallBoard) {
-  const auto layout = firmware::plan_vram(0x80000000, 1 << 20, 480, 272, command::PixelFormat::kRgb565, command::DepthFormat::kUnorm16);
+  const auto layout =
+      firmware::plan_vram(0x80000000, 1 << 20, 480, 272, command::PixelFormat::kRgb565, command::DepthFormat::kUnorm16);
   ASSERT_TRUE(layout.ok());
   EXPECT_EQ(layout->picture_stride_bytes, 960u);  // 15 units of 64
   EXPECT_EQ(layout->picture[0], 0x80000000u);
@@ -121,18 +130,22 @@ TEST(VramLayout, HoldsTwoPicturesAndDepthOnTheSmallBoard) {
 }
 
 TEST(VramLayout, RoundsRowsUpToTheDisplaysUnit) {
-  const auto layout = firmware::plan_vram(0, 1 << 20, 100, 10, command::PixelFormat::kXrgb8888, command::DepthFormat::kNone);
+  const auto layout =
+      firmware::plan_vram(0, 1 << 20, 100, 10, command::PixelFormat::kXrgb8888, command::DepthFormat::kNone);
   ASSERT_TRUE(layout.ok());
   EXPECT_EQ(layout->picture_stride_bytes, 448u);  // 400 bytes are six and a quarter units
   EXPECT_EQ(layout->used_bytes, 2u * 448 * 10);
 }
 
 TEST(VramLayout, SaysHowManyBytesAreMissing) {
-  const auto layout = firmware::plan_vram(0, 1 << 20, 480, 272, command::PixelFormat::kXrgb8888, command::DepthFormat::kUnorm24);
+  const auto layout =
+      firmware::plan_vram(0, 1 << 20, 480, 272, command::PixelFormat::kXrgb8888, command::DepthFormat::kUnorm24);
   EXPECT_EQ(layout.status().code, StatusCode::kResourceExhausted);
   EXPECT_EQ(layout.status().where, 3u * 1920 * 272);
-  EXPECT_FALSE(firmware::plan_vram(0, 1 << 20, 0, 272, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
-  EXPECT_FALSE(firmware::plan_vram(0, 0xFFFFFFFF, 4097, 1, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
+  EXPECT_FALSE(
+      firmware::plan_vram(0, 1 << 20, 0, 272, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
+  EXPECT_FALSE(
+      firmware::plan_vram(0, 0xFFFFFFFF, 4097, 1, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
 }
 
 }  // namespace

@@ -183,14 +183,16 @@ TEST(Container, SaysWhatIsWrong) {
 
 TEST(DrawingDataTest, RefusesCountsThatOverflow) {
   RomImage rom = bare_rom({two_meshes()[0]});
-  for (std::uint32_t count : {5u, 0x15555555u, 0x15555556u, 0x40000000u, 0xFFFFFFFFu}) {  // 12 * 0x15555556 wraps past 2^32
+  for (std::uint32_t count :
+       {5u, 0x15555555u, 0x15555556u, 0x40000000u, 0xFFFFFFFFu}) {  // 12 * 0x15555556 wraps past 2^32
     rom[4] = count;
     EXPECT_FALSE(DrawingData::open(rom.bytes()).ok()) << count;
   }
 }
 
 TEST(DrawingDataTest, RefusesCoordinatesThatAreNotNumbers) {
-  for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()}) {
+  for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                    -std::numeric_limits<float>::infinity()}) {
     auto meshes = two_meshes();
     meshes[0].positions[1].z = bad;
     const RomImage rom = bare_rom(meshes);

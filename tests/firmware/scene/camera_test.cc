@@ -78,7 +78,8 @@ TEST(CameraTest, ViewOfFillsThePictureWithALongModel) {
 TEST(CameraTest, OrbitKeepsItsDistance) {
   const Bounds bounds{{-3, -1, 2}, {5, 7, 4}};
   const float first = length(orbit(bounds, 0, 0.4, 2).eye - bounds.centre());
-  for (int step = 1; step < 12; ++step) EXPECT_NEAR(length(orbit(bounds, step * 0.37, 0.4, 2).eye - bounds.centre()), first, 1e-4);
+  for (int step = 1; step < 12; ++step)
+    EXPECT_NEAR(length(orbit(bounds, step * 0.37, 0.4, 2).eye - bounds.centre()), first, 1e-4);
   EXPECT_GE(first, length(view_of(bounds, 0.37, 0.4, 2).eye - bounds.centre()));
 }
 

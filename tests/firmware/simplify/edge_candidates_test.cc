@@ -26,7 +26,8 @@ void fill(EdgeCandidates& candidates, const std::vector<EdgeKey>& keys) {
 std::vector<EdgeKey> take_all(EdgeCandidates& candidates, EdgeKey limit, std::size_t size) {
   std::vector<EdgeKey> all, batch(size);
   candidates.begin_pass();
-  while (const std::size_t count = candidates.take(limit, batch)) all.insert(all.end(), batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(count));
+  while (const std::size_t count = candidates.take(limit, batch))
+    all.insert(all.end(), batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(count));
   return all;
 }
 
@@ -62,7 +63,8 @@ TEST(EdgeCandidates, RankIsThePlaceInASortedList) {
     EdgeCandidates candidates(memory);
     fill(candidates, keys);
     std::sort(keys.begin(), keys.end());
-    for (const std::size_t rank : {std::size_t{0}, count / 3, count / 2, count - 1}) EXPECT_EQ(candidates.key_of_rank(rank), keys[rank]) << rank << " of " << count;
+    for (const std::size_t rank : {std::size_t{0}, count / 3, count / 2, count - 1})
+      EXPECT_EQ(candidates.key_of_rank(rank), keys[rank]) << rank << " of " << count;
     EXPECT_EQ(candidates.key_of_rank(count), kEdgeKeyMax);
   }
 }

@@ -46,7 +46,7 @@ struct RandomEdges {
 // The order of collapses, and that it ends, rest on this.
 TEST(EdgeCost, ManyAtOnceHaveTheBitsOfEachAlone) {
   for (const float scale : {1.0f, 1e9f, 1e-9f, 1e-18f}) {  // the last one's quadrics are denormal
-    for (const int planes : {0, 1, 2, 5}) {                // with one or two planes there is no minimum but for the pull
+    for (const int planes : {0, 1, 2, 5}) {  // with one or two planes there is no minimum but for the pull
       const RandomEdges random(35, planes, scale);         // 105 edges: fours and one left over
       for (const Placement placement : {Placement::kOptimal, Placement::kMidpoint}) {
         std::vector<float> costs(random.edges.size());
@@ -55,7 +55,8 @@ TEST(EdgeCost, ManyAtOnceHaveTheBitsOfEachAlone) {
           const Corner edge = random.edges[i];
           const EdgeCost one = cost_edge(random.surface, random.surface.vertex_at(edge),
                                          random.surface.vertex_at(next_in_face(edge)), placement);
-          ASSERT_EQ(std::bit_cast<std::uint32_t>(costs[i]), std::bit_cast<std::uint32_t>(one.cost)) << i << ' ' << scale;
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(costs[i]), std::bit_cast<std::uint32_t>(one.cost))
+              << i << ' ' << scale;
           ASSERT_GE(one.cost, 0.0f);
         }
       }
@@ -64,7 +65,8 @@ TEST(EdgeCost, ManyAtOnceHaveTheBitsOfEachAlone) {
 }
 
 TEST(EdgeCost, ThreePlanesMeetWhereTheVertexGoes) {
-  // The corner of a cube, seen from two vertices on its edge along x: the planes y = 0 and z = 0 at both, x = 0 at the first.
+  // The corner of a cube, seen from two vertices on its edge along x: the planes y = 0 and z = 0 at both, x = 0 at the
+  // first.
   Place places[2] = {{{0.5f, 0, 0}, 0}, {{1.5f, 0, 0}, 0}};
   Vertex vertices[2];
   for (Vertex& v : vertices) {

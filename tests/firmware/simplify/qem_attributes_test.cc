@@ -46,8 +46,10 @@ TEST(QemAttributes, BorderOfColoursStaysWhereItWas) {
     const std::uint32_t a = thinned.mesh.indices[f], b = thinned.mesh.indices[f + 1], c = thinned.mesh.indices[f + 2];
     ASSERT_EQ(thinned.mesh.colours[a], thinned.mesh.colours[b]);
     ASSERT_EQ(thinned.mesh.colours[b], thinned.mesh.colours[c]);
-    const double area =
-        cross(thinned.mesh.positions[b] - thinned.mesh.positions[a], thinned.mesh.positions[c] - thinned.mesh.positions[a]).z / 2;
+    const double area = cross(thinned.mesh.positions[b] - thinned.mesh.positions[a],
+                              thinned.mesh.positions[c] - thinned.mesh.positions[a])
+                            .z /
+                        2;
     (thinned.mesh.colours[a] == kRed ? red : blue) += area;
   }
   EXPECT_NEAR(red, 5 * 16, 0.1);
@@ -64,7 +66,8 @@ TEST(QemAttributes, CubeWithFlatNormalsKeepsItsSixNormals) {
   EXPECT_EQ(normals.size(), 6u);
   for (std::size_t f = 0; f < thinned.mesh.indices.size(); f += 3) {
     const std::uint32_t a = thinned.mesh.indices[f], b = thinned.mesh.indices[f + 1], c = thinned.mesh.indices[f + 2];
-    const Vec3 normal = normalized(cross(thinned.mesh.positions[b] - thinned.mesh.positions[a], thinned.mesh.positions[c] - thinned.mesh.positions[a]));
+    const Vec3 normal = normalized(cross(thinned.mesh.positions[b] - thinned.mesh.positions[a],
+                                         thinned.mesh.positions[c] - thinned.mesh.positions[a]));
     for (const std::uint32_t v : {a, b, c}) EXPECT_GT(dot(normal, unpack(thinned.mesh.normals[v])), 0.999f);
   }
 }
@@ -104,8 +107,8 @@ TEST(QemAttributes, NormalsAreSharedOutByPlaceAndArea) {
   EXPECT_FLOAT_EQ(shares_at(0.5f, 3, 1).reversed().normal, 0.75f);
 }
 
-// Two flat walls and a small fillet between, shaded smooth. Thinned to a few faces, the walls must still look flat: a wall is a
-// hundred times as wide as a step of the fillet, whose tilted normals would be drawn all over it.
+// Two flat walls and a small fillet between, shaded smooth. Thinned to a few faces, the walls must still look flat: a
+// wall is a hundred times as wide as a step of the fillet, whose tilted normals would be drawn all over it.
 TEST(QemAttributes, FlatWallsBesideAThinnedFilletStayEvenlyLit) {
   constexpr float kQuarter = 1.5707963f;
   constexpr int kSteps = 8, kRows = 9;
@@ -131,7 +134,8 @@ TEST(QemAttributes, FlatWallsBesideAThinnedFilletStayEvenlyLit) {
   const Mesh thinned = thin(mesh, 16).mesh;
   ASSERT_LE(thinned.face_count(), 16u);
   for (std::size_t f = 0; f < thinned.indices.size(); f += 3) {
-    const Vec3 a = thinned.positions[thinned.indices[f]], b = thinned.positions[thinned.indices[f + 1]], c = thinned.positions[thinned.indices[f + 2]];
+    const Vec3 a = thinned.positions[thinned.indices[f]], b = thinned.positions[thinned.indices[f + 1]],
+               c = thinned.positions[thinned.indices[f + 2]];
     const Vec3 normal = cross(b - a, c - a);
     if (length(normal) < 100) continue;  // no wall
     for (std::size_t k = 0; k < 3; ++k)

@@ -1,6 +1,6 @@
-// Against a plain implementation of Garland & Heckbert's method: double precision, absolute 4x4 quadrics, every cost worked
-// out anew before every collapse, no queue, no shared code. The two may choose differently among nearly equal costs, so
-// their errors are compared, not their faces.
+// Against a plain implementation of Garland & Heckbert's method: double precision, absolute 4x4 quadrics, every cost
+// worked out anew before every collapse, no queue, no shared code. The two may choose differently among nearly equal
+// costs, so their errors are compared, not their faces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -166,7 +166,8 @@ TEST(QemReference, ErrorIsThatOfThePlainMethodOrBetter) {
       const Mesh plain = PlainSimplifier(mesh).run(target);
       const Mesh ours = thin(mesh, target).mesh;
       EXPECT_EQ(ours.face_count(), plain.face_count());
-      const bench::SurfaceError e = bench::measure_error(mesh, ours, 20000), e0 = bench::measure_error(mesh, plain, 20000);
+      const bench::SurfaceError e = bench::measure_error(mesh, ours, 20000),
+                                e0 = bench::measure_error(mesh, plain, 20000);
       EXPECT_LE(e.rms, e0.rms * 1.05 + 1e-3) << mesh.face_count() << " to " << target;
       EXPECT_LE(e.hausdorff, e0.hausdorff * 1.3 + 5e-3) << mesh.face_count() << " to " << target;
     }

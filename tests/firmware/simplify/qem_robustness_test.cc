@@ -18,7 +18,8 @@ using firmware::StopReason;
 Mesh soup(unsigned seed) {
   std::mt19937 random(seed);
   Mesh mesh;
-  const auto vertices = static_cast<std::uint32_t>(3 + random() % 60), faces = static_cast<std::uint32_t>(1 + random() % 200);
+  const auto vertices = static_cast<std::uint32_t>(3 + random() % 60),
+             faces = static_cast<std::uint32_t>(1 + random() % 200);
   for (std::uint32_t v = 0; v < vertices; ++v) {
     auto coordinate = [&] { return static_cast<float>(random() % 9) - 4.0f; };
     const float x = coordinate(), y = coordinate(), z = coordinate();
@@ -35,7 +36,9 @@ Mesh crumpled(unsigned seed) {
   std::mt19937 random(seed);
   Mesh mesh = icosphere(2);
   for (Vec3& p : mesh.positions)
-    p = p + Vec3{static_cast<float>(random() % 1000), static_cast<float>(random() % 1000), static_cast<float>(random() % 1000)} * 5e-4f;
+    p = p + Vec3{static_cast<float>(random() % 1000), static_cast<float>(random() % 1000),
+                 static_cast<float>(random() % 1000)} *
+                5e-4f;
   for (int i = 0; i < 5; ++i) {
     const auto face = static_cast<std::ptrdiff_t>(random() % mesh.face_count());
     mesh.indices.erase(mesh.indices.begin() + face * 3, mesh.indices.begin() + face * 3 + 3);
@@ -56,7 +59,8 @@ void expect_sound(const Mesh& before, const Thinned& thinned, std::uint32_t targ
   for (std::size_t v = 0; v < named.size(); ++v) EXPECT_TRUE(named[v]) << "vertex " << v << " is not referenced";
   for (const Vec3 p : after.positions) EXPECT_TRUE(is_finite(p));
   EXPECT_TRUE(std::isfinite(thinned.outcome.max_error));
-  EXPECT_EQ(thinned.outcome.stop, after.face_count() <= target ? StopReason::kQuotaReached : StopReason::kNoCollapseAllowed);
+  EXPECT_EQ(thinned.outcome.stop,
+            after.face_count() <= target ? StopReason::kQuotaReached : StopReason::kNoCollapseAllowed);
   const MeshTopology t0 = topology_of(before), t1 = topology_of(after);
   EXPECT_LE(t1.non_manifold_edges, t0.non_manifold_edges);
   EXPECT_EQ(t1.degenerate_faces, 0u);
@@ -84,8 +88,8 @@ TEST(QemRobustness, CrumpledSurfacesStaySoundAndStopOnlyWhereNothingMoves) {
     const Thinned thinned = thin(mesh, 20);
     expect_sound(mesh, thinned, 20);
     if (thinned.outcome.stop != StopReason::kNoCollapseAllowed) continue;
-    // Stopped for want of an allowed collapse: a fresh start must find none either. It starts with fresh quadrics, so its
-    // placements differ a little; it may find a collapse or two more, not dozens.
+    // Stopped for want of an allowed collapse: a fresh start must find none either. It starts with fresh quadrics, so
+    // its placements differ a little; it may find a collapse or two more, not dozens.
     const Thinned again = thin(thinned.mesh, 20);
     EXPECT_LE(thinned.mesh.face_count() - again.mesh.face_count(), 8u);
   }

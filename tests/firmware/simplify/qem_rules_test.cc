@@ -76,8 +76,8 @@ TEST(QemRules, EachOfManyTetrahedraStays) {
 }
 
 TEST(QemRules, HoleOfThreeEdgesIsNotClosed) {
-  // A flat ring of six faces around a triangular hole: collapsing an inner border edge would close the hole, and a spoke
-  // would pinch the ring. What may go is the outer border, one face each.
+  // A flat ring of six faces around a triangular hole: collapsing an inner border edge would close the hole, and a
+  // spoke would pinch the ring. What may go is the outer border, one face each.
   Mesh mesh;
   for (const float radius : {1.0f, 3.0f})
     for (const float turn : {0.0f, 1.0f, 2.0f}) {
@@ -101,8 +101,8 @@ TEST(QemRules, TorusKeepsItsHole) {
   for (std::uint32_t i = 0; i < kAround; ++i)
     for (std::uint32_t j = 0; j < kAcross; ++j) {
       const double u = 2 * 3.14159265358979 * i / kAround, v = 2 * 3.14159265358979 * j / kAcross;
-      mesh.positions.push_back({static_cast<float>((3 + std::cos(v)) * std::cos(u)), static_cast<float>((3 + std::cos(v)) * std::sin(u)),
-                                static_cast<float>(std::sin(v))});
+      mesh.positions.push_back({static_cast<float>((3 + std::cos(v)) * std::cos(u)),
+                                static_cast<float>((3 + std::cos(v)) * std::sin(u)), static_cast<float>(std::sin(v))});
     }
   for (std::uint32_t i = 0; i < kAround; ++i)
     for (std::uint32_t j = 0; j < kAcross; ++j) {
@@ -135,11 +135,19 @@ TEST(QemRules, BorderOfAFlatSheetKeepsItsOutline) {
 }
 
 TEST(QemRules, StripGivesUpItsCheapestEndEdgeIntoItsMiddle) {
-  // Ten vertices, eight faces, as in the patent's figure 5. Moving a vertex costs the squared length of its border edges:
-  // the last edge has only short neighbours, every other edge has a long one.
+  // Ten vertices, eight faces, as in the patent's figure 5. Moving a vertex costs the squared length of its border
+  // edges: the last edge has only short neighbours, every other edge has a long one.
   Mesh strip;
-  strip.positions = {{0.928f, -0.04754f, 0}, {0.679f, -0.17241f, 0}, {3, 1, 0},       {-2, -1, 0},           {4, 2, 0},
-                     {-3, -3, 0},            {1.2f, -0.3f, 0},       {1.25f, -0.6f, 0}, {0.948f, -0.2894f, 0}, {0.973f, -0.61348f, 0}};
+  strip.positions = {{0.928f, -0.04754f, 0},
+                     {0.679f, -0.17241f, 0},
+                     {3, 1, 0},
+                     {-2, -1, 0},
+                     {4, 2, 0},
+                     {-3, -3, 0},
+                     {1.2f, -0.3f, 0},
+                     {1.25f, -0.6f, 0},
+                     {0.948f, -0.2894f, 0},
+                     {0.973f, -0.61348f, 0}};
   for (std::uint32_t i = 0; i < 8; ++i) {
     const bool odd = i % 2 == 1;
     for (const std::uint32_t k : {i, odd ? i + 2 : i + 1, odd ? i + 1 : i + 2}) strip.indices.push_back(k);
@@ -158,7 +166,8 @@ TEST(QemRules, StripGivesUpItsCheapestEndEdgeIntoItsMiddle) {
 TEST(QemRules, UnreferencedDegenerateAndRepeatedInputIsCleanedAway) {
   Mesh mesh = icosphere(2);
   const Mesh clean = mesh;
-  // A vertex no face names, faces without extent, a vertex twice (as -0 and 0), and the whole sphere's first face again.
+  // A vertex no face names, faces without extent, a vertex twice (as -0 and 0), and the whole sphere's first face
+  // again.
   mesh.positions.push_back({9e30f, 9e30f, 9e30f});
   mesh.positions.push_back(mesh.positions[7]);
   const auto repeated = static_cast<std::uint32_t>(mesh.positions.size() - 1);

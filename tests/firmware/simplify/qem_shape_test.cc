@@ -29,7 +29,8 @@ TEST(QemShape, ClosedManifoldStaysClosedManifoldAndOriented) {
       EXPECT_EQ(t.non_manifold_edges, 0u);
       EXPECT_EQ(t.misoriented_edges, 0u);
       for (std::size_t f = 0; f < thinned.mesh.indices.size(); f += 3) {
-        const Vec3 a = thinned.mesh.positions[thinned.mesh.indices[f]], b = thinned.mesh.positions[thinned.mesh.indices[f + 1]],
+        const Vec3 a = thinned.mesh.positions[thinned.mesh.indices[f]],
+                   b = thinned.mesh.positions[thinned.mesh.indices[f + 1]],
                    c = thinned.mesh.positions[thinned.mesh.indices[f + 2]];
         EXPECT_GT(dot(cross(b - a, c - a), a + b + c), 0) << "face " << f / 3 << " looks inwards at " << target;
       }
@@ -37,8 +38,8 @@ TEST(QemShape, ClosedManifoldStaysClosedManifoldAndOriented) {
   }
 }
 
-// Large meshes are worked off region by region. Wherever the quota is met, no region may be left whole: the sphere is the
-// same all over, so each of its eight octants keeps an eighth of the faces.
+// Large meshes are worked off region by region. Wherever the quota is met, no region may be left whole: the sphere is
+// the same all over, so each of its eight octants keeps an eighth of the faces.
 TEST(QemShape, RegionsOfALargeSphereAreThinnedAlike) {
   const Mesh sphere = icosphere(6);  // some ten batches
   for (const std::uint32_t percent : {90u, 70u, 50u, 30u, 10u}) {
@@ -47,16 +48,18 @@ TEST(QemShape, RegionsOfALargeSphereAreThinnedAlike) {
     ASSERT_TRUE(thinned.status.ok());
     std::size_t faces[8] = {};
     for (std::size_t f = 0; f < thinned.mesh.indices.size(); f += 3) {
-      const Vec3 middle = thinned.mesh.positions[thinned.mesh.indices[f]] + thinned.mesh.positions[thinned.mesh.indices[f + 1]] +
+      const Vec3 middle = thinned.mesh.positions[thinned.mesh.indices[f]] +
+                          thinned.mesh.positions[thinned.mesh.indices[f + 1]] +
                           thinned.mesh.positions[thinned.mesh.indices[f + 2]];
       ++faces[(middle.x > 0 ? 1 : 0) + (middle.y > 0 ? 2 : 0) + (middle.z > 0 ? 4 : 0)];
     }
-    for (const std::size_t in_octant : faces) EXPECT_NEAR(static_cast<double>(in_octant), target / 8.0, target / 8.0 * 0.1) << percent;
+    for (const std::size_t in_octant : faces)
+      EXPECT_NEAR(static_cast<double>(in_octant), target / 8.0, target / 8.0 * 0.1) << percent;
   }
 }
 
-// A face that turns a little in each of many collapses may end up looking the other way. Here every face has wedges and a
-// colour of its own, which no collapse mixes with another's, so that what is left can be told from what it was.
+// A face that turns a little in each of many collapses may end up looking the other way. Here every face has wedges and
+// a colour of its own, which no collapse mixes with another's, so that what is left can be told from what it was.
 TEST(QemShape, NoFaceEndsUpLookingToWhereItsBackWas) {
   const Mesh sphere = icosphere(5);
   Mesh rough;  // up to six edges' lengths up and down
@@ -79,7 +82,8 @@ TEST(QemShape, NoFaceEndsUpLookingToWhereItsBackWas) {
     ASSERT_LE(thinned.face_count(), target);
     std::size_t turned = 0;
     for (std::size_t i = 0; i < thinned.indices.size(); i += 3) {
-      const Vec3 a = thinned.positions[thinned.indices[i]], b = thinned.positions[thinned.indices[i + 1]], c = thinned.positions[thinned.indices[i + 2]];
+      const Vec3 a = thinned.positions[thinned.indices[i]], b = thinned.positions[thinned.indices[i + 1]],
+                 c = thinned.positions[thinned.indices[i + 2]];
       const Vec3 now = cross(b - a, c - a), before = normals[thinned.colours[thinned.indices[i]].bits];
       // What the simplifier remembers of a face's side is good to a tenth of a degree.
       if (dot(now, before) < -0.01f * length(now) * length(before)) ++turned;

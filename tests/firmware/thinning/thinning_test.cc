@@ -151,7 +151,8 @@ TEST(ScreenArea, CountsOnlyWhatFacesTheViewerInsideThePicture) {
 }
 
 TEST(ScreenArea, ClipsAtTheEyeInPerspective) {
-  // w = -z: a floor at y = -1 from z = -1 to z = +9 (behind the eye); only what lies before the eye and in the picture counts.
+  // w = -z: a floor at y = -1 from z = -1 to z = +9 (behind the eye); only what lies before the eye and in the picture
+  // counts.
   firmware::View view{Mat4{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.0002f, -0.20002f, 0, 0, -1, 0}}, 100, 100};
   TestMesh floor;
   floor.positions = {{-1, -1, -4}, {1, -1, -4}, {-1, -1, 9}, {1, -1, 9}};
@@ -337,9 +338,9 @@ TEST(Statistics, EveryMeshIsCountedOnceByWhatWasDecidedAndWhy) {
   TestMesh lamp = square(1, 2), large = square(1, 4);
   lamp.flags = firmware::format::kFlagTelltale;
   large.area_threshold_px = 1;
-  const std::vector<TestMesh> meshes{square(1, 0), square(1, 0), square(1, 1),   square(1, 1), square(1, 1), square(1, 2),
-                                     square(1, 2), lamp,         hills(4, 3),    hills(4, 3),  hills(4, 3),  hills(4, 3),
-                                     large,        square(1, 4), square(1, 5)};
+  const std::vector<TestMesh> meshes{square(1, 0), square(1, 0), square(1, 1), square(1, 1), square(1, 1),
+                                     square(1, 2), square(1, 2), lamp,         hills(4, 3),  hills(4, 3),
+                                     hills(4, 3),  hills(4, 3),  large,        square(1, 4), square(1, 5)};
   const std::uint32_t chosen[] = {8, 9, 10};
   ThinningSettings settings;
   settings.collapse_policy.kind = PolicyKind::kChosen;

@@ -1,4 +1,5 @@
-// compose_line against hand-worked pixels and against a plain model written apart from it, one pixel and channel at a time.
+// compose_line against hand-worked pixels and against a plain model written apart from it, one pixel and channel at a
+// time.
 #include "gfx_subsystem/display/compose_line.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ TEST(ComposeLine, BackgroundAloneFillsTheLine) {
 
 TEST(ComposeLine, Rgb565IsWidenedSoThatFullScaleStaysFullScale) {
   const std::uint16_t raw[6] = {0xFFFF, 0x0000, 0xF800, 0x07E0, 0x001F, 0x8410};
-  const LayerRow row{.pixels = reinterpret_cast<const std::byte*>(raw), .x_begin = 0, .x_end = 6, .format = LayerFormat::kRgb565};
+  const LayerRow row{
+      .pixels = reinterpret_cast<const std::byte*>(raw), .x_begin = 0, .x_end = 6, .format = LayerFormat::kRgb565};
   EXPECT_EQ(compose(0, {row}, 6), (Words{0xFFFFFF, 0x000000, 0xFF0000, 0x00FF00, 0x0000FF, 0x848284}));
 }
 
@@ -47,7 +49,8 @@ TEST(ComposeLine, UpperByteOfXrgbNeverReachesThePanel) {
 TEST(ComposeLine, BlendingRoundsToTheNearestHalvesUp) {
   // 200 * 128 / 255 + 100 * 127 / 255 = 150.196; 1 * 128 / 255 = 0.502 -> 1; 1 * 127 / 255 = 0.498 -> 0.
   const auto bytes = bytes_of({0x80C80100, 0x7FC80100});
-  const LayerRow row{.pixels = bytes.data(), .x_begin = 0, .x_end = 2, .format = LayerFormat::kArgb8888, .per_pixel_alpha = true};
+  const LayerRow row{
+      .pixels = bytes.data(), .x_begin = 0, .x_end = 2, .format = LayerFormat::kArgb8888, .per_pixel_alpha = true};
   EXPECT_EQ(compose(0x640000, {row}, 2), (Words{0x960100, 0x960000}));
 }
 

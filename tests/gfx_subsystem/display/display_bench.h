@@ -1,5 +1,5 @@
-// What device tests of the display controller share: a piece of memory on a bus, a tap on the cable, a small legal timing.
-// Registers are written by literal offsets, so that a slip in the register header shows.
+// What device tests of the display controller share: a piece of memory on a bus, a tap on the cable, a small legal
+// timing. Registers are written by literal offsets, so that a slip in the register header shows.
 #pragma once
 
 #include <cstddef>
@@ -54,9 +54,9 @@ class CableTap final : public VideoSink {
   }
 };
 
-/// Eight pixels by four lines: front porch 1, sync 2, back porch 1 (12 pixels a line); 1, 1, 1 (7 lines). SC = 3: 4 ticks a
-/// pixel, 48 ticks a line, 336 a frame. The signal starts in line 5 (VSYNC): line 0 begins 96 ticks, the vertical blank 288
-/// ticks after the start.
+/// Eight pixels by four lines: front porch 1, sync 2, back porch 1 (12 pixels a line); 1, 1, 1 (7 lines). SC = 3: 4
+/// ticks a pixel, 48 ticks a line, 336 a frame. The signal starts in line 5 (VSYNC): line 0 begins 96 ticks, the
+/// vertical blank 288 ticks after the start.
 class SmallDisplay {
  public:
   static constexpr std::uint64_t kLineTicks = 48, kFrameTicks = 336, kFirstLine0 = 96, kFirstBlank = 288;

@@ -343,9 +343,9 @@ TEST(DisplayController, ALayerNeverWrapsAroundTheAddressSpace) {
 }
 
 TEST(DisplayController, SlowBusStarvesTheRestOfTheLineAndRaisesTheFault) {
-  // Twelve pixels of 4 ticks: a byte a tick is 4 bytes a pixel. Eight pixels of two layers need 8 bytes each; the blank of 4
-  // pixels fills the FIFO with 16 bytes: before pixel k it holds 16 - 4 k, so that pixel 3 (4 bytes) starves. Line 0 has had
-  // the vertical blank, so that its FIFO is full: 20 - 4 k, pixel 4 starves.
+  // Twelve pixels of 4 ticks: a byte a tick is 4 bytes a pixel. Eight pixels of two layers need 8 bytes each; the blank
+  // of 4 pixels fills the FIFO with 16 bytes: before pixel k it holds 16 - 4 k, so that pixel 3 (4 bytes) starves. Line
+  // 0 has had the vertical blank, so that its FIFO is full: 20 - 4 k, pixel 4 starves.
   SmallDisplay d({.bus_bytes_per_second = 400'000'000, .fifo_bytes = 20});
   for (std::uint32_t i = 0; i < 32; ++i) d.memory.put32(kA + 4 * i, i);
   d.show_layer(0, kC, 0, 0, 8, 4);

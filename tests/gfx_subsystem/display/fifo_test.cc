@@ -33,8 +33,8 @@ TEST(Fifo, EnoughBusNeverStarves) {
 
 TEST(Fifo, OneByteASecondTooLittleStarvesOnceTheFifoIsEmpty) {
   const FetchSpan span{0, 1000, 4};
-  // Ten ticks a second, one tick a pixel: a pixel needs 40 of these units, the bus brings 30 bytes a second: 30. The FIFO
-  // starts with 8 bytes = 80; before pixel k it holds 80 - 10 k, and starves when that is below 40: k = 5.
+  // Ten ticks a second, one tick a pixel: a pixel needs 40 of these units, the bus brings 30 bytes a second: 30. The
+  // FIFO starts with 8 bytes = 80; before pixel k it holds 80 - 10 k, and starves when that is below 40: k = 5.
   EXPECT_EQ(first_starved_pixel({&span, 1}, 1000, 1, 1000, {10, 30, 8}), 5u);
 }
 

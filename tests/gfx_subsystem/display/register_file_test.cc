@@ -139,7 +139,8 @@ TEST(RegisterFile, MalformedTablesAreRecognised) {
   using Table = std::array<RegisterInfo<Gadget>, 2>;
   EXPECT_FALSE(is_well_formed(Table{{{.offset = 4}, {.offset = 0}}})) << "not sorted";
   EXPECT_FALSE(is_well_formed(Table{{{.offset = 0}, {.offset = 6}}})) << "not aligned";
-  EXPECT_FALSE(is_well_formed(Table{{{.offset = 0, .writable = 3, .strobe = 2}, {.offset = 4}}})) << "a bit in two classes";
+  EXPECT_FALSE(is_well_formed(Table{{{.offset = 0, .writable = 3, .strobe = 2}, {.offset = 4}}}))
+      << "a bit in two classes";
   EXPECT_FALSE(is_well_formed(Table{{{.offset = 0, .reset = 1}, {.offset = 4}}})) << "a reset in a reserved bit";
   EXPECT_TRUE(is_well_formed(Table{{{.offset = 0}, {.offset = 4}}}));
 }

@@ -60,7 +60,8 @@ TEST(DisplayRegisters, FieldsLieWhereThePageSaysTheyDo) {
   EXPECT_EQ(Dcm1::kLayers.put(15), 0x000F0000u);
   EXPECT_EQ(Dcm1::kCursor.put(1), 0x01000000u);
   EXPECT_EQ(Dcm1::kDen.put(1), 0x80000000u);
-  EXPECT_EQ(LayerMode::kFmt.put(3) | LayerMode::kKey.put(1) | LayerMode::kPpa.put(1) | LayerMode::kGa.put(255), 0x00FF0033u);
+  EXPECT_EQ(LayerMode::kFmt.put(3) | LayerMode::kKey.put(1) | LayerMode::kPpa.put(1) | LayerMode::kGa.put(255),
+            0x00FF0033u);
   EXPECT_EQ(LayerFlip::kBank.put(1) | LayerFlip::kShown.put(1) | LayerFlip::kPend.put(1), 0xC0000001u);
   EXPECT_EQ(CfgE::kTiming.put(1) | CfgE::kSignature.put(1) | CfgE::kLayers.put(15) | CfgE::kCursor.put(1), 0x010F0003u);
   EXPECT_EQ(kIntVerticalBlank, 1u);

@@ -40,7 +40,8 @@ std::vector<std::uint32_t> picture_pixels() {
   for (std::uint32_t i = 0; i < 32; ++i) pixels.push_back(pattern(i));
   return pixels;
 }
-const std::vector<std::uint32_t> kWindowPixels = {pattern(10), pattern(11), pattern(12), pattern(18), pattern(19), pattern(20)};
+const std::vector<std::uint32_t> kWindowPixels = {pattern(10), pattern(11), pattern(12),
+                                                  pattern(18), pattern(19), pattern(20)};
 
 TEST(Signature, BitwiseReferenceMeetsThePublishedCheckValue) {
   EXPECT_EQ(bitwise_crc({0x313233, 0x343536, 0x373839}), 0xCBF43926u) << "\"123456789\"";

@@ -375,7 +375,8 @@ TEST_F(DecodeTest, BadIndicesAreRefused) {
 // Indices are ranged several at a time; wherever the least, the greatest or a bad one lies, it is found.
 TEST_F(DecodeTest, TheRangeOfIndicesSeesEveryPlaceOfEveryLength) {
   const auto put = [&](IndexFormat format, std::uint32_t place, std::uint32_t index) {
-    if (format == IndexFormat::kU16) memory.store<std::uint16_t>(kIndices + 2 * place, {static_cast<std::uint16_t>(index)});
+    if (format == IndexFormat::kU16)
+      memory.store<std::uint16_t>(kIndices + 2 * place, {static_cast<std::uint16_t>(index)});
     else memory.store<std::uint32_t>(kIndices + 4 * place, {index});
   };
   for (const IndexFormat format : {IndexFormat::kU16, IndexFormat::kU32}) {

@@ -69,9 +69,11 @@ TEST(OsmesaDraw, LightIsAmbientPlusDiffuseCutAtOne) {
   EXPECT_EQ(lit_pixel(base, down, off), 0xFFC86432u);
   EXPECT_EQ(lit_pixel(base, down, light, false), 0xFFC86432u) << "no normals: colour = base";
   // 511 * cos(60 degrees) packs to 256 of 511: 200 * (0 + 1 * 256 / 511) = 100.2
-  EXPECT_EQ(lit_pixel(rgba8(200, 200, 200), pack_normal({0.86602540f, 0, 0.5f}), {1, {0, 0, 1}, {0, 0, 0}, {1, 1, 1}}), 0xFF646464u);
+  EXPECT_EQ(lit_pixel(rgba8(200, 200, 200), pack_normal({0.86602540f, 0, 0.5f}), {1, {0, 0, 1}, {0, 0, 0}, {1, 1, 1}}),
+            0xFF646464u);
   // The field -512 stands for -1 as -511 does: 255 * 0.4996 is 127.4; unclamped it would be 127.6.
-  EXPECT_EQ(lit_pixel(kWhite, PackedNormal{0x200u << 20}, {1, {0, 0, -1}, {0, 0, 0}, {0.4996f, 0.4996f, 0.4996f}}), 0xFF7F7F7Fu);
+  EXPECT_EQ(lit_pixel(kWhite, PackedNormal{0x200u << 20}, {1, {0, 0, -1}, {0, 0, 0}, {0.4996f, 0.4996f, 0.4996f}}),
+            0xFF7F7F7Fu);
 }
 
 TEST(OsmesaDraw, FlatTakesTheLastVertexOfEachPrimitive) {
@@ -127,8 +129,9 @@ TEST(OsmesaDraw, PointsAreSquaresAroundTheirVertex) {
     std::uint32_t x, y, width, height;
   };
   // A pixel belongs to the square when its centre lies in [at - size / 2, at + size / 2).
-  const Case cases[] = {{1, {5.5f, 5.5f, 0.5f}, 5, 5, 1, 1},  {1, {5.25f, 5.75f, 0.5f}, 5, 5, 1, 1}, {2, {6, 6, 0.5f}, 5, 5, 2, 2},
-                        {3, {6.5f, 5.5f, 0.5f}, 5, 4, 3, 3},  {4, {6.25f, 6.75f, 0.5f}, 4, 5, 4, 4}, {2.5f, {6.5f, 6.5f, 0.5f}, 5, 5, 3, 3},
+  const Case cases[] = {{1, {5.5f, 5.5f, 0.5f}, 5, 5, 1, 1},   {1, {5.25f, 5.75f, 0.5f}, 5, 5, 1, 1},
+                        {2, {6, 6, 0.5f}, 5, 5, 2, 2},         {3, {6.5f, 5.5f, 0.5f}, 5, 4, 3, 3},
+                        {4, {6.25f, 6.75f, 0.5f}, 4, 5, 4, 4}, {2.5f, {6.5f, 6.5f, 0.5f}, 5, 5, 3, 3},
                         {1.5f, {6, 6, 0.5f}, 5, 5, 2, 2}};
   for (const Case& c : cases) {
     Bench bench;
@@ -138,7 +141,8 @@ TEST(OsmesaDraw, PointsAreSquaresAroundTheirVertex) {
     bench.put(raster);
     bench.draw(Topology::kPoints, {c.at}, kWhite);
     ASSERT_TRUE(bench.run().status.ok());
-    EXPECT_EQ(bench.count_pixels(kWhitePixel), c.width * c.height) << "size " << c.size << " at " << c.at.x << " " << c.at.y;
+    EXPECT_EQ(bench.count_pixels(kWhitePixel), c.width * c.height)
+        << "size " << c.size << " at " << c.at.x << " " << c.at.y;
     EXPECT_EQ(bench.pixel(c.x, c.y), kWhitePixel);
     EXPECT_EQ(bench.pixel(c.x + c.width - 1, c.y + c.height - 1), kWhitePixel);
   }
@@ -152,7 +156,7 @@ TEST(OsmesaDraw, CountersTellWhatTheListAskedFor) {
   streams.positions = bench.store<Vec3>({{0, 0, 0.5f}, {0, 4, 0.5f}, {4, 0, 0.5f}, {4, 4, 0.5f}, {900, 4, 0.5f}});
   bench.put(streams);
   const BusAddress indices = bench.store<std::uint16_t>({1, 2, 3, 3, 2, 2, 9, 9});
-  bench.put(Draw{Topology::kTriangles, IndexFormat::kU16, indices, 0, 6});     // vertices 1 to 3; the second has no area
+  bench.put(Draw{Topology::kTriangles, IndexFormat::kU16, indices, 0, 6});  // vertices 1 to 3; the second has no area
   bench.put(Draw{Topology::kTriangleStrip, IndexFormat::kNone, 0, 0, 4});      // vertices 0 to 3
   bench.put(Draw{Topology::kLines, IndexFormat::kNone, 0, 0, 3});              // one line
   bench.put(Draw{Topology::kPoints, IndexFormat::kNone, 0, 4, 1});             // off the target
@@ -164,8 +168,8 @@ TEST(OsmesaDraw, CountersTellWhatTheListAskedFor) {
   EXPECT_EQ(c.faces_in, 2u + 2u);
   EXPECT_EQ(c.primitives_in, 4u + 1u + 1u);
   EXPECT_EQ(c.faces_drawn, 3u);
-  // The strip is 4 x 4 pixels. Of the triangle (0,4) (4,0) (4,4) 6 centres lie inside and 4 on its diagonal, which is its
-  // left edge: 10. The line from (0, 0) to (0, 4) lies between two columns and takes the one on its left: none.
+  // The strip is 4 x 4 pixels. Of the triangle (0,4) (4,0) (4,4) 6 centres lie inside and 4 on its diagonal, which is
+  // its left edge: 10. The line from (0, 0) to (0, 4) lies between two columns and takes the one on its left: none.
   EXPECT_EQ(c.pixels_tested, 16u + 10u);
 }
 

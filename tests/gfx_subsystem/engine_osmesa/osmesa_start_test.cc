@@ -23,8 +23,10 @@ TEST(OsmesaStartDeathTest, UsersDriverAndThreadsAreLeftAlone) {
         ::setenv("GALLIUM_DRIVER", "softpipe", 1);
         ::setenv("LP_NUM_THREADS", "3", 1);
         const OsmesaEngine engine(1);
-        const bool kept = std::string_view(std::getenv("GALLIUM_DRIVER")) == "softpipe" && std::string_view(std::getenv("LP_NUM_THREADS")) == "3";
-        std::exit(kept && (!engine.status().ok() || std::string_view(engine.renderer()).starts_with("softpipe")) ? 0 : 1);
+        const bool kept = std::string_view(std::getenv("GALLIUM_DRIVER")) == "softpipe" &&
+                          std::string_view(std::getenv("LP_NUM_THREADS")) == "3";
+        std::exit(kept && (!engine.status().ok() || std::string_view(engine.renderer()).starts_with("softpipe")) ? 0
+                                                                                                                 : 1);
       },
       testing::ExitedWithCode(0), "");
 }

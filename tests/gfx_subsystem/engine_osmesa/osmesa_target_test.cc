@@ -26,7 +26,8 @@ TEST(OsmesaTarget, Rgb565RoundsToTheNearestStep) {
 TEST(OsmesaTarget, WhatIsNotDrawnKeepsEveryBit) {
   for (const PixelFormat format : {PixelFormat::kXrgb8888, PixelFormat::kRgb565}) {
     Bench bench(format, DepthFormat::kUnorm24, 12);
-    for (std::size_t i = 0; i < bench.memory.vram().size(); ++i) bench.memory.vram()[i] = static_cast<std::byte>(i * 37 + (i >> 8));
+    for (std::size_t i = 0; i < bench.memory.vram().size(); ++i)
+      bench.memory.vram()[i] = static_cast<std::byte>(i * 37 + (i >> 8));
     const std::vector<std::byte> before(bench.memory.vram().begin(), bench.memory.vram().end());
     bench.put(SetScissor{3, 2, 5, 4});
     bench.put(Clear{kClearColour | kClearDepth, rgba8(255, 0, 0), 0.5f});
@@ -43,7 +44,9 @@ TEST(OsmesaTarget, WhatIsNotDrawnKeepsEveryBit) {
         const std::size_t y = (i - plane) / stride, x = (i - plane) % stride / bytes;
         return x >= 3 && x < 8 && y >= 2 && y < 6;
       };
-      if (in_scissor(0, bench.colour.stride_bytes, size) || in_scissor(Bench::kDepthOffset, bench.depth.stride_bytes, 4)) continue;
+      if (in_scissor(0, bench.colour.stride_bytes, size) ||
+          in_scissor(Bench::kDepthOffset, bench.depth.stride_bytes, 4))
+        continue;
       ASSERT_EQ(bench.memory.vram()[i], before[i]) << "byte " << i << " of VRAM";
     }
     EXPECT_EQ(bench.pixel(3, 2), format == PixelFormat::kRgb565 ? 0x07E0u : 0xFF00FF00u);
@@ -59,8 +62,12 @@ TEST(OsmesaTarget, DepthsAreStoredAsTheContractRounds) {
     std::uint32_t stored;
   };
   // floor(d * 65535 + 0.5), floor(d * 16777215 + 0.5)
-  const Case cases[] = {{DepthFormat::kUnorm16, 0.5f, 32768},    {DepthFormat::kUnorm16, 0.25f, 16384}, {DepthFormat::kUnorm16, 1, 65535},
-                        {DepthFormat::kUnorm24, 0.5f, 8388608},  {DepthFormat::kUnorm24, 0.75f, 12582911}, {DepthFormat::kUnorm24, 1, 16777215},
+  const Case cases[] = {{DepthFormat::kUnorm16, 0.5f, 32768},
+                        {DepthFormat::kUnorm16, 0.25f, 16384},
+                        {DepthFormat::kUnorm16, 1, 65535},
+                        {DepthFormat::kUnorm24, 0.5f, 8388608},
+                        {DepthFormat::kUnorm24, 0.75f, 12582911},
+                        {DepthFormat::kUnorm24, 1, 16777215},
                         {DepthFormat::kUnorm24, 0, 0}};
   for (const Case& c : cases) {
     Bench bench(PixelFormat::kXrgb8888, c.format);

@@ -28,7 +28,8 @@ class Bench {
                  std::uint32_t padding_bytes = 0)
       : memory(1 << 16, 1 << 16),
         colour{SceneMemory::kVramBase, kWidth * bytes_per_pixel(format) + padding_bytes, kWidth, kHeight, format},
-        depth{SceneMemory::kVramBase + kDepthOffset, kWidth * bytes_per_depth(depth_format) + padding_bytes, depth_format} {
+        depth{SceneMemory::kVramBase + kDepthOffset, kWidth * bytes_per_depth(depth_format) + padding_bytes,
+              depth_format} {
     begin();
   }
 
@@ -67,7 +68,8 @@ class Bench {
 
   /// Covers the pixels [x, x + width) x [y, y + height), under the pixel transform.
   void rectangle(float x, float y, float width, float height, float at_depth, Rgba8 colour_of_all) {
-    draw(Topology::kTriangleStrip, {{x, y, at_depth}, {x, y + height, at_depth}, {x + width, y, at_depth}, {x + width, y + height, at_depth}},
+    draw(Topology::kTriangleStrip,
+         {{x, y, at_depth}, {x, y + height, at_depth}, {x + width, y, at_depth}, {x + width, y + height, at_depth}},
          colour_of_all);
   }
 
@@ -76,7 +78,9 @@ class Bench {
     return engine.execute(words, memory);
   }
 
-  std::uint32_t pixel(std::uint32_t x, std::uint32_t y) { return read(0, colour.stride_bytes, bytes_per_pixel(colour.format), x, y); }
+  std::uint32_t pixel(std::uint32_t x, std::uint32_t y) {
+    return read(0, colour.stride_bytes, bytes_per_pixel(colour.format), x, y);
+  }
   std::uint32_t depth_at(std::uint32_t x, std::uint32_t y) {
     return read(kDepthOffset, depth.stride_bytes, bytes_per_depth(depth.format), x, y);
   }

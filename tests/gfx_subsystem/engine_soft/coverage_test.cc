@@ -13,7 +13,8 @@ constexpr Rgba8 kWhite = rgba8(255, 255, 255);
 TEST(TopLeftFillRule, PixelSquareIsCoveredOnceWithoutItsRightAndBottomBorder) {
   // Corners at pixel centres: left and top borders belong to it, right and bottom ones do not.
   Bench b(4, 4);
-  b.streams({{0.5f, 0.5f, 0}, {2.5f, 0.5f, 0}, {2.5f, 2.5f, 0}, {0.5f, 2.5f, 0}}, {}, kWhite).draw(Topology::kTriangleFan, 4);
+  b.streams({{0.5f, 0.5f, 0}, {2.5f, 0.5f, 0}, {2.5f, 2.5f, 0}, {0.5f, 2.5f, 0}}, {}, kWhite)
+      .draw(Topology::kTriangleFan, 4);
   const auto report = b.run();
   EXPECT_TRUE(report.status.ok()) << report.status.message;
   EXPECT_EQ(b.picture(), "##..\n##..\n....\n....\n");
@@ -73,7 +74,8 @@ TEST(TopLeftFillRule, WindingDoesNotMatter) {
 /// Straight from the rule's definition, in 64-bit integers, every pixel of the target on its own.
 class NaiveRaster {
  public:
-  NaiveRaster(std::int32_t width, std::int32_t height) : width_(width), height_(height), count_(static_cast<std::size_t>(width * height)) {}
+  NaiveRaster(std::int32_t width, std::int32_t height)
+      : width_(width), height_(height), count_(static_cast<std::size_t>(width * height)) {}
 
   void add(std::array<std::array<std::int64_t, 2>, 3> v) {  // 1/256 pixel
     const std::int64_t area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
@@ -92,7 +94,9 @@ class NaiveRaster {
         if (inside) ++count_[static_cast<std::size_t>(y * width_ + x)];
       }
   }
-  std::uint32_t at(std::uint32_t x, std::uint32_t y) const { return count_[y * static_cast<std::uint32_t>(width_) + x]; }
+  std::uint32_t at(std::uint32_t x, std::uint32_t y) const {
+    return count_[y * static_cast<std::uint32_t>(width_) + x];
+  }
   std::uint64_t total() const {
     std::uint64_t n = 0;
     for (auto c : count_) n += c;
@@ -135,13 +139,15 @@ TEST_P(CoverageAgainstNaive, EveryPixelOfEveryTriangleAgrees) {
     ASSERT_TRUE(report.status.ok());
     ASSERT_EQ(report.counters.pixels_tested, naive.total()) << "triangle " << n;
     for (std::uint32_t y = 0; y < kHeight; ++y)
-      for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(b.pixel(x, y) != 0, naive.at(x, y) != 0) << "triangle " << n << " at " << x << ", " << y;
+      for (std::uint32_t x = 0; x < kWidth; ++x)
+        ASSERT_EQ(b.pixel(x, y) != 0, naive.at(x, y) != 0) << "triangle " << n << " at " << x << ", " << y;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, CoverageAgainstNaive,
-                         ::testing::Values(RandomShape{"tiny", 3, 400}, RandomShape{"small", 20, 300}, RandomShape{"tile", 70, 200},
-                                           RandomShape{"big", 300, 150}, RandomShape{"huge", 20000, 50}),
+                         ::testing::Values(RandomShape{"tiny", 3, 400}, RandomShape{"small", 20, 300},
+                                           RandomShape{"tile", 70, 200}, RandomShape{"big", 300, 150},
+                                           RandomShape{"huge", 20000, 50}),
                          [](const auto& shape) { return shape.param.name; });
 
 /// A triangulated grid with jittered inner vertices over [0, width] x [0, height].
@@ -154,7 +160,8 @@ struct JitteredGrid {
     for (std::uint32_t j = 0; j <= rows; ++j)
       for (std::uint32_t i = 0; i <= columns; ++i) {
         const float w = width / static_cast<float>(columns), h = height / static_cast<float>(rows);
-        const float jx = i == 0 || i == columns ? 0 : random.in(-0.2f, 0.2f), jy = j == 0 || j == rows ? 0 : random.in(-0.2f, 0.2f);
+        const float jx = i == 0 || i == columns ? 0 : random.in(-0.2f, 0.2f),
+                    jy = j == 0 || j == rows ? 0 : random.in(-0.2f, 0.2f);
         positions.push_back({(static_cast<float>(i) + jx) * w, (static_cast<float>(j) + jy) * h, random.in(0, 1)});
       }
     for (std::uint32_t j = 0; j < rows; ++j)
@@ -184,10 +191,12 @@ INSTANTIATE_TEST_SUITE_P(Cells, WatertightGrid, ::testing::Values(1u, 2u, 3u, 7u
 TEST(Coverage, PerspectiveMeshIsWatertightToo) {
   constexpr std::uint32_t kWidth = 320, kHeight = 200;
   JitteredGrid grid(40, 40, 8, 8, 3);
-  for (auto& p : grid.positions) p = {p.x - 4, p.y - 4, -3 - 0.3f * (p.x - 4)};  // a slanted plane beyond the view on all sides
+  for (auto& p : grid.positions)
+    p = {p.x - 4, p.y - 4, -3 - 0.3f * (p.x - 4)};  // a slanted plane beyond the view on all sides
   Bench b(kWidth, kHeight, PixelFormat::kXrgb8888, DepthFormat::kNone, 0, 8u << 20);
   const float near = 0.5f, far = 20;
-  b.put(SetTransform{{{1.2f, 0, 0, 0, 0, 1.2f, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * near / (near - far), 0, 0, -1, 0}}});
+  b.put(SetTransform{
+      {{1.2f, 0, 0, 0, 0, 1.2f, 0, 0, 0, 0, (far + near) / (near - far), 2 * far * near / (near - far), 0, 0, -1, 0}}});
   b.streams(grid.positions, {}, kWhite).draw_indexed(Topology::kTriangles, grid.indices);
   const auto report = b.run();
   ASSERT_TRUE(report.status.ok());
@@ -209,7 +218,8 @@ TEST(Coverage, ScissorAndViewportCutAtPixelBorders) {
     ASSERT_TRUE(report.status.ok());
     EXPECT_EQ(report.counters.pixels_tested, 50u * 41u);
     for (std::uint32_t y = 0; y < 80; ++y)
-      for (std::uint32_t x = 0; x < 100; ++x) ASSERT_EQ(b.pixel(x, y) != 0, x >= 13 && x < 63 && y >= 7 && y < 48) << x << ", " << y;
+      for (std::uint32_t x = 0; x < 100; ++x)
+        ASSERT_EQ(b.pixel(x, y) != 0, x >= 13 && x < 63 && y >= 7 && y < 48) << x << ", " << y;
   }
 }
 

@@ -1,4 +1,5 @@
-// Lists that are wrong: execution stops at the word with the fault, what came before is drawn, and nothing else happens.
+// Lists that are wrong: execution stops at the word with the fault, what came before is drawn, and nothing else
+// happens.
 #include <limits>
 
 #include "tests/gfx_subsystem/engine_soft/test_bench.h"
@@ -116,15 +117,18 @@ TEST(Faults, DrawingWithoutTargetOrStreamsIsRefused) {
     std::uint32_t words[64] = {};
     Writer list(words);
     if (kind == 0) list.put(Clear{kClearColour, {}, 1});
-    else list.put(SetColourTarget{kVram, 64, 16, 16, PixelFormat::kXrgb8888}), list.put(Draw{Topology::kTriangles, IndexFormat::kNone, 0, 0, 3});
+    else
+      list.put(SetColourTarget{kVram, 64, 16, 16, PixelFormat::kXrgb8888}),
+          list.put(Draw{Topology::kTriangles, IndexFormat::kNone, 0, 0, 3});
     EXPECT_EQ(engine.execute(*list.finish(), memory).status.code, StatusCode::kFailedPrecondition);
   }
 }
 
 TEST(Faults, PacketsThatAreNoPacketsStopTheList) {
   struct Case { std::uint32_t word; StatusCode code; };
-  for (const auto& c : {Case{0x7F000000u, StatusCode::kUnsupported}, Case{0x20000000u, StatusCode::kUnsupported}, Case{0x10010003u, StatusCode::kDataLoss},
-                        Case{0x10000002u, StatusCode::kDataLoss}, Case{0x1000FFFFu, StatusCode::kDataLoss}}) {
+  for (const auto& c : {Case{0x7F000000u, StatusCode::kUnsupported}, Case{0x20000000u, StatusCode::kUnsupported},
+                        Case{0x10010003u, StatusCode::kDataLoss}, Case{0x10000002u, StatusCode::kDataLoss},
+                        Case{0x1000FFFFu, StatusCode::kDataLoss}}) {
     FaultBench f;
     const std::uint32_t word = f.b.used_words();
     f.b.raw(c.word).raw(0).raw(0).raw(0);
@@ -158,15 +162,16 @@ TEST(Faults, RandomWordsNeverCrash) {
     FlatMemory memory(8192, 32768);
     for (auto& byte : memory.ram) byte = static_cast<std::byte>(random.next() >> 7);
     Writer list(words);
-    list.put(SetColourTarget{kVram, 100, 1 + random.below(50), 1 + random.below(90), random.below(2) != 0 ? PixelFormat::kRgb565 : PixelFormat::kXrgb8888});
+    list.put(SetColourTarget{kVram, 100, 1 + random.below(50), 1 + random.below(90),
+                             random.below(2) != 0 ? PixelFormat::kRgb565 : PixelFormat::kXrgb8888});
     list.put(SetDepthTarget{kVram + 16384, 100, random.below(2) != 0 ? DepthFormat::kUnorm16 : DepthFormat::kNone});
     list.put(SetVertexStreams{300, kRam, 12, kRam, 12, kRam, 12, {}, 0, 0});
     SetTransform transform;
     for (float& v : transform.model_to_clip.m) v = random.in(-2, 2);
     list.put(transform);
     list.put(SetLight{random.below(2), {0, 0, 1}, {0.5f, 0.5f, 0.5f}, {1, 1, 1}});
-    list.put(SetRasterState{static_cast<ShadeModel>(random.below(2)), static_cast<CullMode>(random.below(3)), FrontFace::kClockwise,
-                            static_cast<DepthFunction>(random.below(3)), 0, 1, 5, 3});
+    list.put(SetRasterState{static_cast<ShadeModel>(random.below(2)), static_cast<CullMode>(random.below(3)),
+                            FrontFace::kClockwise, static_cast<DepthFunction>(random.below(3)), 0, 1, 5, 3});
     list.put(Draw{static_cast<Topology>(random.below(5)), IndexFormat::kNone, 0, random.below(100), random.below(200)});
     const auto finished = *list.finish();
     if (n % 2 != 0) words[random.below(static_cast<std::uint32_t>(finished.size()))] = random.next();

@@ -11,10 +11,13 @@ const float kNan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Culling, SidesAreSeenOnThePanel) {
   // Window y runs down: (2,2) (2,14) (14,2) runs counter-clockwise to the eye.
-  const std::vector<Vec3> counter_clockwise{{2, 2, 0}, {2, 14, 0}, {14, 2, 0}}, clockwise{{2, 2, 0}, {14, 2, 0}, {2, 14, 0}};
+  const std::vector<Vec3> counter_clockwise{{2, 2, 0}, {2, 14, 0}, {14, 2, 0}},
+      clockwise{{2, 2, 0}, {14, 2, 0}, {2, 14, 0}};
   struct Case { CullMode cull; FrontFace front; bool ccw_drawn, cw_drawn; };
-  for (const auto& c : {Case{CullMode::kNone, FrontFace::kCounterClockwise, true, true}, Case{CullMode::kBack, FrontFace::kCounterClockwise, true, false},
-                        Case{CullMode::kFront, FrontFace::kCounterClockwise, false, true}, Case{CullMode::kBack, FrontFace::kClockwise, false, true},
+  for (const auto& c : {Case{CullMode::kNone, FrontFace::kCounterClockwise, true, true},
+                        Case{CullMode::kBack, FrontFace::kCounterClockwise, true, false},
+                        Case{CullMode::kFront, FrontFace::kCounterClockwise, false, true},
+                        Case{CullMode::kBack, FrontFace::kClockwise, false, true},
                         Case{CullMode::kFront, FrontFace::kClockwise, true, false}}) {
     SetRasterState raster;
     raster.cull = c.cull;
@@ -34,8 +37,10 @@ TEST(Culling, StripsAlternateAndFansDoNot) {
   raster.cull = CullMode::kBack;
   Bench strip(64, 64), fan(64, 64);
   std::vector<Vec3> ribbon, rim{{32, 32, 0}};
-  for (int i = 0; i < 10; ++i) ribbon.push_back({static_cast<float>(i / 2 * 12 + 2), i % 2 == 0 ? 10.0f : 50.0f, 0});  // counter-clockwise
-  for (const Vec3 p : {Vec3{60, 32, 0}, Vec3{32, 4, 0}, Vec3{4, 32, 0}, Vec3{32, 60, 0}, Vec3{60, 32, 0}}) rim.push_back(p);
+  for (int i = 0; i < 10; ++i)
+    ribbon.push_back({static_cast<float>(i / 2 * 12 + 2), i % 2 == 0 ? 10.0f : 50.0f, 0});  // counter-clockwise
+  for (const Vec3 p : {Vec3{60, 32, 0}, Vec3{32, 4, 0}, Vec3{4, 32, 0}, Vec3{32, 60, 0}, Vec3{60, 32, 0}})
+    rim.push_back(p);
   strip.put(raster).streams(ribbon).draw(Topology::kTriangleStrip, 10);
   fan.put(raster).streams(rim).draw(Topology::kTriangleFan, 6);
   const auto s = strip.run().counters, f = fan.run().counters;
@@ -47,7 +52,8 @@ TEST(Culling, StripsAlternateAndFansDoNot) {
 
 TEST(Assembly, IndexFormatsAndFirstSelectTheSameTriangles) {
   std::vector<Vec3> v{{0, 0, 0}, {0, 0, 0}};
-  for (int i = 0; i < 6; ++i) v.push_back({static_cast<float>(i % 3 * 20), static_cast<float>(i / 3 * 20 + (i % 2) * 10), 0});
+  for (int i = 0; i < 6; ++i)
+    v.push_back({static_cast<float>(i % 3 * 20), static_cast<float>(i / 3 * 20 + (i % 2) * 10), 0});
   const std::vector<std::uint32_t> wide{7, 2, 3, 4, 5, 6, 7};
   const std::vector<std::uint16_t> narrow(wide.begin(), wide.end());
   Bench a(64, 64), b(64, 64), c(64, 64);
@@ -64,8 +70,10 @@ TEST(Assembly, IndexFormatsAndFirstSelectTheSameTriangles) {
 
 TEST(Assembly, IncompletePrimitivesAreLeftOut) {
   const std::vector<Vec3> v{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}, {4, 4, 0}};
-  for (const auto& [topology, count, primitives] : {std::tuple{Topology::kTriangles, 5u, 1u}, std::tuple{Topology::kTriangleStrip, 2u, 0u},
-                                                    std::tuple{Topology::kTriangleFan, 1u, 0u}, std::tuple{Topology::kLines, 5u, 2u}, std::tuple{Topology::kPoints, 5u, 5u}}) {
+  for (const auto& [topology, count, primitives] :
+       {std::tuple{Topology::kTriangles, 5u, 1u}, std::tuple{Topology::kTriangleStrip, 2u, 0u},
+        std::tuple{Topology::kTriangleFan, 1u, 0u}, std::tuple{Topology::kLines, 5u, 2u},
+        std::tuple{Topology::kPoints, 5u, 5u}}) {
     Bench b(16, 16);
     b.streams(v).draw(topology, count);
     const auto report = b.run();
@@ -109,7 +117,8 @@ TEST(Clip, ColourOnTheCutIsInterpolatedInSpace) {
   // From z = -1 (black) to z = +1 (white) cut at near = 0.5: a quarter of the way.
   Bench b(64, 64);
   b.put(square_view(0.5f, 10));
-  b.streams({{-9, -0.5f, -1}, {9, -0.5f, -1}, {9, -0.5f, 1}, {-9, -0.5f, 1}}, {rgba8(0, 0, 0), rgba8(0, 0, 0), rgba8(255, 255, 255), rgba8(255, 255, 255)})
+  b.streams({{-9, -0.5f, -1}, {9, -0.5f, -1}, {9, -0.5f, 1}, {-9, -0.5f, 1}},
+            {rgba8(0, 0, 0), rgba8(0, 0, 0), rgba8(255, 255, 255), rgba8(255, 255, 255)})
       .draw(Topology::kTriangleFan, 4);
   ASSERT_TRUE(b.run().status.ok());
   EXPECT_NEAR(b.pixel(32, 63) & 255, 0.25 * 255, 2.0);  // the window's lower border shows z = -0.5
@@ -121,13 +130,16 @@ TEST(Clip, HugeAndUnspeakableCoordinatesDoNoHarm) {
       for (int axis = 0; axis < 3; ++axis)
         for (const bool perspective : {false, true}) {
           std::vector<Vec3> v{{-0.5f, -0.5f, -1}, {0.5f, -0.5f, -1}, {0, 0.5f, -1}};
-          float* value = axis == 0 ? &v[static_cast<std::size_t>(corner)].x : axis == 1 ? &v[static_cast<std::size_t>(corner)].y : &v[static_cast<std::size_t>(corner)].z;
+          float* value = axis == 0   ? &v[static_cast<std::size_t>(corner)].x
+                         : axis == 1 ? &v[static_cast<std::size_t>(corner)].y
+                                     : &v[static_cast<std::size_t>(corner)].z;
           *value = bad;
           Bench b(64, 64);
           if (perspective) b.put(square_view(0.1f, 10)); else b.put(SetTransform{});
           b.streams(v).draw(Topology::kTriangles, 3);
           b.draw(Topology::kLines, 2).draw(Topology::kPoints, 3);
-          b.streams({{-1, -1, -1}, {1, -1, -1}, {0, 1, -1}}).draw(Topology::kTriangles, 3);  // the next draw is unharmed
+          b.streams({{-1, -1, -1}, {1, -1, -1}, {0, 1, -1}})
+              .draw(Topology::kTriangles, 3);  // the next draw is unharmed
           const auto report = b.run();
           ASSERT_TRUE(report.status.ok());
           EXPECT_NE(b.pixel(32, 40), 0u) << bad;
@@ -203,13 +215,15 @@ TEST(Lines, OfOnePixelAreGaplessAndOnePixelThick) {
     bench.streams({a, b}).draw(Topology::kLines, 2);
     ASSERT_TRUE(bench.run().status.ok());
     const bool wide = std::abs(b.x - a.x) > std::abs(b.y - a.y);
-    const float from = wide ? std::min(a.x, b.x) : std::min(a.y, b.y), to = wide ? std::max(a.x, b.x) : std::max(a.y, b.y);
+    const float from = wide ? std::min(a.x, b.x) : std::min(a.y, b.y),
+                to = wide ? std::max(a.x, b.x) : std::max(a.y, b.y);
     for (std::uint32_t i = 0; i < 64; ++i) {
       int in_column = 0;
       for (std::uint32_t j = 0; j < 64; ++j) in_column += bench.pixel(wide ? i : j, wide ? j : i) != 0;
       const float centre = static_cast<float>(i) + 0.5f;
       if (centre > from + 0.01f && centre < to - 0.01f) {
-        const float t = (centre - (wide ? a.x : a.y)) / (wide ? b.x - a.x : b.y - a.y), across = wide ? a.y + t * (b.y - a.y) : a.x + t * (b.x - a.x);
+        const float t = (centre - (wide ? a.x : a.y)) / (wide ? b.x - a.x : b.y - a.y),
+                    across = wide ? a.y + t * (b.y - a.y) : a.x + t * (b.x - a.x);
         if (across > 0.6f && across < 63.4f) { ASSERT_EQ(in_column, 1) << n << " column " << i; }
       }
       if (centre < from - 0.01f || centre > to + 0.01f) { ASSERT_EQ(in_column, 0) << n << " column " << i; }

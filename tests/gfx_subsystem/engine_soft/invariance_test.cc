@@ -58,7 +58,8 @@ struct Outcome {
   EngineCounters counters;
 };
 
-Outcome outcome(const EngineSetup& setup, PixelFormat format = PixelFormat::kXrgb8888, DepthFormat depth = DepthFormat::kUnorm24, std::uint32_t seed = 1) {
+Outcome outcome(const EngineSetup& setup, PixelFormat format = PixelFormat::kXrgb8888,
+                DepthFormat depth = DepthFormat::kUnorm24, std::uint32_t seed = 1) {
   Bench b(333, 211, format, depth);
   compose(b, seed);
   const auto report = b.run(setup);
@@ -168,7 +169,8 @@ TEST(Invariance, TheSameEngineRunsListAfterListAndTargetAfterTarget) {
 }
 
 TEST(WorkMemory, BelowTheMinimumEndsTheListWithTheReason) {
-  for (const auto& [width, height] : {std::pair{16u, 16u}, std::pair{480u, 272u}, std::pair{1920u, 720u}, std::pair{4096u, 4096u}}) {
+  for (const auto& [width, height] :
+       {std::pair{16u, 16u}, std::pair{480u, 272u}, std::pair{1920u, 720u}, std::pair{4096u, 4096u}}) {
     const std::size_t least = SoftEngine::minimum_work_bytes(width, height);
     Bench b(width, height);
     b.streams({{-5, -5, 0}, {9000, -5, 0}, {-5, 9000, 0}}).draw(Topology::kTriangles, 3);

@@ -22,7 +22,8 @@ TEST(PixelFormats, Rgb565RoundsEveryChannelToTheNearest) {
     b.streams({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {}, rgba8(v, 255 - v, v)).draw(Topology::kTriangleFan, 4);
     b.put(SetScissor{0, 4, 8, 4}).put(Clear{kClearColour, rgba8(v, 255 - v, v), 1});
     ASSERT_TRUE(b.run().status.ok());
-    const auto five = static_cast<std::uint32_t>(std::lround(v * 31 / 255.0)), six = static_cast<std::uint32_t>(std::lround((255 - v) * 63 / 255.0));
+    const auto five = static_cast<std::uint32_t>(std::lround(v * 31 / 255.0)),
+               six = static_cast<std::uint32_t>(std::lround((255 - v) * 63 / 255.0));
     EXPECT_EQ(b.pixel(3, 3), five << 11 | six << 5 | five) << v;
     EXPECT_EQ(b.pixel(3, 5), b.pixel(3, 3)) << "clear and draw differ at " << v;
   }
@@ -39,7 +40,8 @@ TEST(PixelFormats, BytesBetweenRowsStayUntouched) {
     ASSERT_TRUE(b.run().status.ok());
     const std::size_t row = 65 * bytes_per_pixel(format);
     for (std::uint32_t y = 0; y < 67; ++y)
-      for (std::size_t i = row; i < b.stride(); ++i) ASSERT_EQ(b.vram()[y * b.stride() + i], std::byte{0xA5}) << y << ", " << i;
+      for (std::size_t i = row; i < b.stride(); ++i)
+        ASSERT_EQ(b.vram()[y * b.stride() + i], std::byte{0xA5}) << y << ", " << i;
   }
 }
 
@@ -54,7 +56,9 @@ TEST(Shading, FlatTakesTheLastVertexOfEveryPrimitive) {
   EXPECT_EQ(strip.pixel(5, 5), 0xFF0000FFu);    // 0 1 2
   EXPECT_EQ(strip.pixel(60, 60), 0xFFFFFFFFu);  // 2 1 3
   Bench fan(64, 64);
-  fan.put(flat).streams({{0, 0, 0}, {0, 64, 0}, {64, 64, 0}, {64, 0, 0}}, {red, green, blue, white}).draw(Topology::kTriangleFan, 4);
+  fan.put(flat)
+      .streams({{0, 0, 0}, {0, 64, 0}, {64, 64, 0}, {64, 0, 0}}, {red, green, blue, white})
+      .draw(Topology::kTriangleFan, 4);
   ASSERT_TRUE(fan.run().status.ok());
   EXPECT_EQ(fan.pixel(5, 60), 0xFF0000FFu);
   EXPECT_EQ(fan.pixel(60, 5), 0xFFFFFFFFu);
@@ -68,7 +72,8 @@ TEST(Shading, GouraudIsLinearToHalfAStepAcrossSizes) {
   for (const float size : {8.0f, 60.0f, 64.0f, 200.0f, 900.0f}) {
     const auto pixels = static_cast<std::uint32_t>(size);
     Bench b(1024, 1024);
-    b.streams({{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {size, size, 0}}, {rgba8(0, 0, 255), rgba8(255, 0, 255), rgba8(0, 255, 255), rgba8(255, 255, 255)})
+    b.streams({{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {size, size, 0}},
+              {rgba8(0, 0, 255), rgba8(255, 0, 255), rgba8(0, 255, 255), rgba8(255, 255, 255)})
         .draw(Topology::kTriangleStrip, 4);
     ASSERT_TRUE(b.run().status.ok());
     for (std::uint32_t y = 0; y < pixels; y += 3)
@@ -86,7 +91,8 @@ TEST(Shading, PerspectiveColourFollowsTheSurfaceNotTheWindow) {
   Bench b(64, 256);
   b.put(SetTransform{});
   b.put(SetTransform{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0}}});  // w = z of the model, depth 0
-  b.streams({{-1, -1, 1}, {1, -1, 1}, {8, 8, 8}, {-8, 8, 8}}, {rgba8(0, 0, 0), rgba8(0, 0, 0), rgba8(255, 255, 255), rgba8(255, 255, 255)})
+  b.streams({{-1, -1, 1}, {1, -1, 1}, {8, 8, 8}, {-8, 8, 8}},
+            {rgba8(0, 0, 0), rgba8(0, 0, 0), rgba8(255, 255, 255), rgba8(255, 255, 255)})
       .draw(Topology::kTriangleFan, 4);
   ASSERT_TRUE(b.run().status.ok());
   for (std::uint32_t y = 0; y < 256; ++y) {
@@ -104,8 +110,11 @@ TEST(Shading, SliversNeverLeaveTheRangeOfTheirCorners) {
     raster.depth_test = 1;
     raster.depth_function = DepthFunction::kAlways;
     b.put(raster);
-    const float x = random.in(0, 128), y = random.in(0, 128), dx = random.in(-70, 70), dy = random.in(-70, 70), t = random.in(0.1f, 0.9f);
-    b.streams({{x, y, 1}, {x + dx, y + dy, 0}, {x + dx * t + random.in(-0.02f, 0.02f), y + dy * t + random.in(-0.02f, 0.02f), 1}},
+    const float x = random.in(0, 128), y = random.in(0, 128), dx = random.in(-70, 70), dy = random.in(-70, 70),
+                t = random.in(0.1f, 0.9f);
+    b.streams({{x, y, 1},
+               {x + dx, y + dy, 0},
+               {x + dx * t + random.in(-0.02f, 0.02f), y + dy * t + random.in(-0.02f, 0.02f), 1}},
               {rgba8(255, 0, 100), rgba8(255, 255, 100), rgba8(255, 0, 110)})
         .draw(Topology::kTriangles, 3);
     b.put(SetScissor{0, 0, 128, 128});
@@ -123,7 +132,9 @@ TEST(Shading, SliversNeverLeaveTheRangeOfTheirCorners) {
 
 TEST(Depth, FunctionsCompareAsNamed) {
   struct Case { DepthFunction function; bool nearer, equal, farther; };
-  for (const auto& c : {Case{DepthFunction::kLess, true, false, false}, Case{DepthFunction::kLessEqual, true, true, false}, Case{DepthFunction::kAlways, true, true, true}})
+  for (const auto& c :
+       {Case{DepthFunction::kLess, true, false, false}, Case{DepthFunction::kLessEqual, true, true, false},
+        Case{DepthFunction::kAlways, true, true, true}})
     for (const auto format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24})
       for (int kind = 0; kind < 3; ++kind) {
         Bench b(16, 16, PixelFormat::kXrgb8888, format);
@@ -132,12 +143,14 @@ TEST(Depth, FunctionsCompareAsNamed) {
         raster.depth_function = c.function;
         b.put(raster).put(Clear{kClearColour | kClearDepth, rgba8(0, 0, 0), 0.5f});
         const float z = kind == 0 ? 0.25f : kind == 1 ? 0.5f : 0.75f;
-        b.streams({{0, 0, z}, {16, 0, z}, {16, 16, z}, {0, 16, z}}, {}, rgba8(255, 0, 0)).draw(Topology::kTriangleFan, 4);
+        b.streams({{0, 0, z}, {16, 0, z}, {16, 16, z}, {0, 16, z}}, {}, rgba8(255, 0, 0))
+            .draw(Topology::kTriangleFan, 4);
         ASSERT_TRUE(b.run().status.ok());
         const bool passes = kind == 0 ? c.nearer : kind == 1 ? c.equal : c.farther;
         EXPECT_EQ(b.pixel(7, 7), passes ? 0xFFFF0000u : 0xFF000000u);
         const double most = format == DepthFormat::kUnorm16 ? 65535.0 : 16777215.0;
-        EXPECT_EQ(b.depth(7, 7), static_cast<std::uint32_t>(std::floor((passes ? static_cast<double>(z) : 0.5) * most + 0.5)));
+        EXPECT_EQ(b.depth(7, 7),
+                  static_cast<std::uint32_t>(std::floor((passes ? static_cast<double>(z) : 0.5) * most + 0.5)));
       }
 }
 
@@ -163,7 +176,8 @@ TEST(Depth, SlopeIsExactToAStepOverTheWholeTarget) {
   b.streams({{0, 0, 0}, {512, 0, 1}, {0, 256, 0}, {512, 256, 1}}).draw(Topology::kTriangleStrip, 4);
   ASSERT_TRUE(b.run().status.ok());
   for (std::uint32_t y = 0; y < 256; y += 7)
-    for (std::uint32_t x = 0; x < 512; ++x) ASSERT_NEAR(b.depth(x, y), (x + 0.5) / 512 * 16777215.0, 1.0) << x << ", " << y;
+    for (std::uint32_t x = 0; x < 512; ++x)
+      ASSERT_NEAR(b.depth(x, y), (x + 0.5) / 512 * 16777215.0, 1.0) << x << ", " << y;
 }
 
 TEST(Clear, FillsTheScissorOnlyAndCountsItsPixels) {
@@ -192,8 +206,8 @@ TEST(Clear, BetweenDrawsKeepsTheOrderOfTheList) {
 }
 
 TEST(Light, FollowsTheFormulaByHand) {
-  // Normal (0, 0, 1), light from (0, 0.6, 0.8): n.l = 0.8. Red 200 * (0.1 + 0.5 * 0.8) = 100; green 100 * min(1, 0.5 + 0.9 * 0.8)
-  // = 100; blue 50 * 0.2 = 10.
+  // Normal (0, 0, 1), light from (0, 0.6, 0.8): n.l = 0.8. Red 200 * (0.1 + 0.5 * 0.8) = 100; green 100 * min(1, 0.5 +
+  // 0.9 * 0.8) = 100; blue 50 * 0.2 = 10.
   Bench b(16, 16);
   SetVertexStreams s;
   s.vertex_count = 3;

@@ -61,8 +61,8 @@ struct EngineSetup {
 /// A picture of `width` x `height`: colour plane at the start of VRAM, depth plane behind it.
 class Bench {
  public:
-  Bench(std::uint32_t width, std::uint32_t height, PixelFormat format = PixelFormat::kXrgb8888, DepthFormat depth = DepthFormat::kNone,
-        std::uint32_t extra_stride = 0, std::size_t ram_bytes = 1u << 20)
+  Bench(std::uint32_t width, std::uint32_t height, PixelFormat format = PixelFormat::kXrgb8888,
+        DepthFormat depth = DepthFormat::kNone, std::uint32_t extra_stride = 0, std::size_t ram_bytes = 1u << 20)
       : width_(width), height_(height), format_(format), depth_(depth), memory_(ram_bytes, 0) {
     stride_ = (width * bytes_per_pixel(format) + 3) / 4 * 4 + extra_stride;
     depth_stride_ = depth == DepthFormat::kNone ? 0 : (width * bytes_per_depth(depth) + 3) / 4 * 4 + extra_stride;
@@ -116,7 +116,9 @@ class Bench {
     s.constant_colour = constant;
     return put(s);
   }
-  Bench& draw(Topology topology, std::uint32_t count, std::uint32_t first = 0) { return put(Draw{topology, IndexFormat::kNone, 0, first, count}); }
+  Bench& draw(Topology topology, std::uint32_t count, std::uint32_t first = 0) {
+    return put(Draw{topology, IndexFormat::kNone, 0, first, count});
+  }
   Bench& draw_indexed(Topology topology, const std::vector<std::uint32_t>& indices) {
     return put(Draw{topology, IndexFormat::kU32, upload(indices), 0, static_cast<std::uint32_t>(indices.size())});
   }
@@ -133,12 +135,16 @@ class Bench {
 
   std::uint32_t pixel(std::uint32_t x, std::uint32_t y) const {
     std::uint32_t v = 0;
-    std::memcpy(&v, memory_.vram.data() + std::size_t{stride_} * y + std::size_t{bytes_per_pixel(format_)} * x, bytes_per_pixel(format_));
+    std::memcpy(&v, memory_.vram.data() + std::size_t{stride_} * y + std::size_t{bytes_per_pixel(format_)} * x,
+                bytes_per_pixel(format_));
     return v;
   }
   std::uint32_t depth(std::uint32_t x, std::uint32_t y) const {
     std::uint32_t v = 0;
-    std::memcpy(&v, memory_.vram.data() + depth_base_ + std::size_t{depth_stride_} * y + std::size_t{bytes_per_depth(depth_)} * x, bytes_per_depth(depth_));
+    std::memcpy(
+        &v,
+        memory_.vram.data() + depth_base_ + std::size_t{depth_stride_} * y + std::size_t{bytes_per_depth(depth_)} * x,
+        bytes_per_depth(depth_));
     return v;
   }
   void fill_vram(std::uint8_t byte) { std::fill(memory_.vram.begin(), memory_.vram.end(), std::byte{byte}); }

@@ -1,7 +1,7 @@
 // The display controller as the firmware uses it.
 //
-// Every call that changes what is shown takes effect at the next vertical blank, all of its registers together. Registers and
-// their meaning: hal/registers/display.h.
+// Every call that changes what is shown takes effect at the next vertical blank, all of its registers together.
+// Registers and their meaning: hal/registers/display.h.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace usuzumi {
 
 using display_registers::LayerFormat;
 
-/// One layer. Addresses and stride are multiples of 4 bytes; the stride holds a row (width * bytes per pixel) and is at most
-/// 65532. width and height 1..4096; x and y -4096..4095, the part outside the picture is not shown.
+/// One layer. Addresses and stride are multiples of 4 bytes; the stride holds a row (width * bytes per pixel) and is at
+/// most 65532. width and height 1..4096; x and y -4096..4095, the part outside the picture is not shown.
 struct LayerConfig {
   LayerFormat format = LayerFormat::kXrgb8888;
   std::uint32_t stride_bytes = 0;
@@ -95,8 +95,8 @@ class DisplayDriver {
 
   /// Picture CRCs are off until asked for.
   void enable_picture_signature(bool enabled);
-  /// Checks a window of the picture against `reference` in every frame; a difference is a fault. kInvalidArgument when the
-  /// window is empty or reaches beyond 4096; kFailedPrecondition when it is not inside the picture of the mode set.
+  /// Checks a window of the picture against `reference` in every frame; a difference is a fault. kInvalidArgument when
+  /// the window is empty or reaches beyond 4096; kFailedPrecondition when it is not inside the picture of the mode set.
   Status check_window(const PictureRectangle& window, std::uint32_t reference);
   /// Computes the window's CRC without checking it.
   Status measure_window(const PictureRectangle& window);

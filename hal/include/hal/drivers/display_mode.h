@@ -8,12 +8,13 @@
 
 namespace usuzumi {
 
-/// Picture size, blanking and pixel clock. A line is picture, front porch, sync, back porch, in this order; so is a frame.
+/// Picture size, blanking and pixel clock. A line is picture, front porch, sync, back porch, in this order; so is a
+/// frame.
 struct DisplayMode {
   std::uint32_t width = 0, height = 0;                                             // pixels, lines
   std::uint32_t h_front_porch = 0, h_sync = 0, h_back_porch = 0;                   // pixels
   std::uint32_t v_front_porch = 0, v_sync = 0, v_back_porch = 0;                   // lines
-  std::uint32_t clock_divider = 1;                                                 // pixel clock = 400 MHz / this; 1..64
+  std::uint32_t clock_divider = 1;  // pixel clock = 400 MHz / this; 1..64
 
   constexpr std::uint32_t line_pixels() const { return width + h_front_porch + h_sync + h_back_porch; }
   constexpr std::uint32_t frame_lines() const { return height + v_front_porch + v_sync + v_back_porch; }
@@ -36,9 +37,9 @@ inline constexpr DisplayMode kMode800x480{800, 480, 40, 128, 88, 10, 2, 33, 12};
 inline constexpr DisplayMode kMode1280x480{1280, 480, 40, 48, 40, 10, 2, 33, 9};  // 44.44 MHz, 60.13 Hz
 inline constexpr DisplayMode kMode1920x720{1920, 720, 48, 32, 80, 36, 10, 35, 4}; // 100 MHz, 60.02 Hz
 
-/// A legal mode for any size from 16 x 16 to 4096 x 4096: one of the above when the size is theirs; otherwise the slowest
-/// pixel clock that reaches 60 frames a second, with the back porches stretched to meet it (60 to 60.2 Hz). Pictures too large
-/// for 400 MHz at 60 Hz get 400 MHz and what refresh that gives (4096 x 4096: 23.3 Hz).
+/// A legal mode for any size from 16 x 16 to 4096 x 4096: one of the above when the size is theirs; otherwise the
+/// slowest pixel clock that reaches 60 frames a second, with the back porches stretched to meet it (60 to 60.2 Hz).
+/// Pictures too large for 400 MHz at 60 Hz get 400 MHz and what refresh that gives (4096 x 4096: 23.3 Hz).
 /// kInvalidArgument for sizes out of range.
 Result<DisplayMode> make_display_mode(std::uint32_t width, std::uint32_t height);
 

@@ -23,7 +23,9 @@ struct RegisterField {
   constexpr std::uint32_t put(std::uint32_t value) const { return (value & max()) << lsb; }
   constexpr std::uint32_t put_signed(std::int32_t value) const { return put(static_cast<std::uint32_t>(value)); }
   /// `word` with the field replaced.
-  constexpr std::uint32_t replace(std::uint32_t word, std::uint32_t value) const { return (word & ~mask()) | put(value); }
+  constexpr std::uint32_t replace(std::uint32_t word, std::uint32_t value) const {
+    return (word & ~mask()) | put(value);
+  }
 };
 
 }  // namespace usuzumi
