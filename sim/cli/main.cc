@@ -11,6 +11,7 @@
 #include "sim/cli/run_command.h"
 #include "sim/cli/thin_command.h"
 #include "sim/common/error.h"
+#include "sim/common/standard_streams.h"
 
 namespace {
 
@@ -27,6 +28,7 @@ void refuse_empty_values(CLI::App& app) {
 
 int main(int argc, char** argv) {
   using namespace usuzumi::sim;
+  occupy_closed_standard_streams();
   int exit_code = exit_status(ExitCode::kOk);
   CLI::App app("Usuzumi: an embedded drawing device for instrument clusters, simulated on the desk", "usuzumi");
   app.require_subcommand(1);
@@ -40,7 +42,7 @@ int main(int argc, char** argv) {
   refuse_empty_values(app);
   const std::string command = argc > 1 && argv[1][0] != '-' ? argv[1] : "";
   if (!command.empty() && app.get_subcommands([&](CLI::App* known) { return known->check_name(command); }).empty()) {
-    fmt::print(stderr, "usuzumi: there is no command {}; there are pack, inspect, thin, run and compare\n", command);
+    print_error(fmt::format("there is no command {}; there are pack, inspect, thin, run and compare", command));
     return exit_status(ExitCode::kUsage);
   }
   try {
@@ -52,7 +54,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "usuzumi: {}; see usuzumi {}--help\n", e.what(), command.empty() ? "" : command + " ");
+    print_error(fmt::format("{}; see usuzumi {}--help", e.what(), command.empty() ? "" : command + " "));
     return exit_status(ExitCode::kUsage);
   }
   return exit_code;

@@ -21,6 +21,7 @@
 #include "sim/common/files.h"
 #include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
+#include "sim/common/standard_streams.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
 #include "sim/pack/names.h"

@@ -22,6 +22,7 @@
 #include "sim/common/files.h"
 #include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
+#include "sim/common/standard_streams.h"
 #include "sim/desk/desk.h"
 #include "sim/desk/run_report.h"
 #include "sim/image/png.h"

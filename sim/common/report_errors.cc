@@ -7,13 +7,14 @@
 #include <new>
 
 #include "sim/common/error.h"
+#include "sim/common/standard_streams.h"
 
 namespace usuzumi::sim {
 
 void report_errors(int& exit_code, const std::function<int()>& body) {
   auto report = [&](ExitCode code, const char* line) {
     std::fflush(stdout);
-    fmt::print(stderr, "usuzumi: {}\n", line);
+    print_error(line);
     exit_code = exit_status(code);
   };
   try {
@@ -28,7 +29,5 @@ void report_errors(int& exit_code, const std::function<int()>& body) {
            fmt::format("a mistake of ours: {}; please report it with the command line", e.what()).c_str());
   }
 }
-
-void print_note(const std::string& line) { fmt::print(stderr, "note: {}\n", line); }
 
 }  // namespace usuzumi::sim

@@ -2,15 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 namespace usuzumi::sim {
 
 /// Runs `body` and sets `exit_code` to what it returns, or to an Error's code after printing "usuzumi: " and its line.
 /// Exhausted memory and unforeseen exceptions are reported in the same way (kDevice).
 void report_errors(int& exit_code, const std::function<int()>& body);
-
-/// "note: LINE" on standard error: nothing is wrong, but the user should know.
-void print_note(const std::string& line);
 
 }  // namespace usuzumi::sim

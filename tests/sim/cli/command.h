@@ -29,10 +29,10 @@ class CommandTest : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// `arguments` as typed in a shell, in the test's folder.
-  Ran usuzumi(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && timeout 120 '" USUZUMI_COMMAND "' " + arguments + " >stdout.txt 2>stderr.txt </dev/null";
+  /// `arguments` as typed in a shell, in the test's folder. What `streams` sends elsewhere is empty in the result.
+  Ran usuzumi(const std::string& arguments, const std::string& streams = ">stdout.txt 2>stderr.txt") const {
+    const std::string command = "cd '" + folder_.string() + "' && timeout 120 '" USUZUMI_COMMAND "' " + arguments + " " +
+                                streams + " </dev/null";
     const int status = std::system(command.c_str());
     Ran ran;
     ran.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;

@@ -1,0 +1,30 @@
+#include "sim/common/standard_streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace usuzumi::sim {
+namespace {
+
+/// Takes no heap and throws nothing: it is also called where memory has run out.
+void say_on_stderr(const char* who, std::string_view line) noexcept {
+  std::fprintf(stderr, "%s: %.*s\n", who, static_cast<int>(line.size()), line.data());
+}
+
+bool is_closed(int fd) { return ::fcntl(fd, F_GETFD) == -1; }
+
+}  // namespace
+
+void occupy_closed_standard_streams() {
+  // open() takes the lowest free number. Opened in the wrong direction, and full for who opens /dev/stdout anew.
+  if (is_closed(STDIN_FILENO)) static_cast<void>(::open("/dev/null", O_WRONLY));
+  for (const int out : {STDOUT_FILENO, STDERR_FILENO})
+    if (is_closed(out)) static_cast<void>(::open("/dev/full", O_RDONLY));
+}
+
+void print_error(std::string_view line) noexcept { say_on_stderr("usuzumi", line); }
+void print_note(std::string_view line) noexcept { say_on_stderr("note", line); }
+
+}  // namespace usuzumi::sim
