@@ -15,6 +15,8 @@
 
 namespace {
 
+using namespace usuzumi::sim;
+
 /// A variable that a script forgot to set must not count as an option that was not given.
 void refuse_empty_values(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -24,16 +26,14 @@ void refuse_empty_values(CLI::App& app) {
             [](const std::string& value) { return value.empty() ? std::string("must not be empty") : std::string(); });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace usuzumi::sim;
-  occupy_closed_standard_streams();
+/// The exit code, before anybody knows whether what was printed has arrived.
+int run_command_line(int argc, char** argv) {
   int exit_code = exit_status(ExitCode::kOk);
   CLI::App app("Usuzumi: an embedded drawing device for instrument clusters, simulated on the desk", "usuzumi");
   app.require_subcommand(1);
   app.set_version_flag("--version", "usuzumi " USUZUMI_VERSION);
-  app.footer(std::string("Example: usuzumi pack car.glb -o car.rom && usuzumi run car.rom --out pictures\n\n") + kExitCodesHelp);
+  app.footer(std::string("Example: usuzumi pack car.glb -o car.rom && usuzumi run car.rom --out pictures\n\n") +
+             kExitCodesHelp);
   add_pack_command(app, exit_code);
   add_inspect_command(app, exit_code);
   add_thin_command(app, exit_code);
@@ -58,4 +58,15 @@ int main(int argc, char** argv) {
     return exit_status(ExitCode::kUsage);
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  occupy_closed_standard_streams();
+  const int exit_code = run_command_line(argc, argv);
+  const bool is_result = exit_code == exit_status(ExitCode::kOk) || exit_code == exit_status(ExitCode::kDifference);
+  if (!is_result || flush_standard_output()) return exit_code;
+  print_error(kStandardOutputLost);
+  return exit_status(ExitCode::kCannotWrite);
 }

@@ -12,7 +12,7 @@ enum class ExitCode : int {
   kDifference = 1,   // compare only: the pictures differ
   kUsage = 2,        // bad options, or (compare) pictures that cannot be compared
   kBadInput = 3,     // an input file is missing, damaged or of a kind that is not read
-  kCannotWrite = 4,  // an output file or folder cannot be written
+  kCannotWrite = 4,  // an output file or folder, or standard output, cannot be written
   kDevice = 5,       // the drawing data do not fit the device's memory, or the device reported an error
 };
 constexpr int exit_status(ExitCode code) { return static_cast<int>(code); }

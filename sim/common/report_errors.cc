@@ -25,6 +25,8 @@ void report_errors(int& exit_code, const std::function<int()>& body) {
     report(ExitCode::kDevice,
            "this computer has too little memory for that; close other programs or use a smaller model");
   } catch (const std::exception& e) {
+    // Printing a long report throws; a short one is found lost at the end.
+    if (!flush_standard_output()) return report(ExitCode::kCannotWrite, kStandardOutputLost);
     report(ExitCode::kDevice,
            fmt::format("a mistake of ours: {}; please report it with the command line", e.what()).c_str());
   }

@@ -24,6 +24,8 @@ void occupy_closed_standard_streams() {
     if (is_closed(out)) static_cast<void>(::open("/dev/full", O_RDONLY));
 }
 
+bool flush_standard_output() noexcept { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
 void print_error(std::string_view line) noexcept { say_on_stderr("usuzumi", line); }
 void print_note(std::string_view line) noexcept { say_on_stderr("note", line); }
 

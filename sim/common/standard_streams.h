@@ -9,6 +9,13 @@ namespace usuzumi::sim {
 /// is meant for people. What is written to them still fails. Call it first in main().
 void occupy_closed_standard_streams();
 
+/// Sends on what has been printed so far. False once anything printed to standard output has been lost.
+[[nodiscard]] bool flush_standard_output() noexcept;
+
+/// What the user is then told; the exit code is kCannotWrite.
+inline constexpr const char* kStandardOutputLost =
+    "standard output: cannot write: what was printed is lost; choose another place or free this one";
+
 /// "usuzumi: LINE" on standard error. Where that cannot be written, there is nobody to tell.
 void print_error(std::string_view line) noexcept;
 
