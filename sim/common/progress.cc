@@ -32,6 +32,20 @@ std::size_t columns_of(int fd) {
   return ::ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
 }
 
+/// At most `most` bytes of UTF-8 text, and no half character. A character takes at least as many bytes as columns.
+std::string_view cut(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;
+  return text.substr(0, most);
+}
+
+/// Gives up the bar before the label's end, and that before the numbers.
+std::string fit(std::string_view label, const std::string& bar, const std::string& numbers, std::size_t room) {
+  std::string rest = fmt::format(" [{}] {}", bar, numbers);
+  if (rest.size() > room) rest = " " + numbers;
+  return std::string(cut(fmt::format("{}{}", cut(label, room - std::min(room, rest.size())), rest), room));
+}
+
 }  // namespace
 
 Clock::time_point end_of_patience() { return program_start + kPatience; }
@@ -61,18 +75,17 @@ void Progress::show(const std::stop_token& stop) const {
 
 void Progress::draw(Clock::duration elapsed) const {
   std::string bar(kBarCells, '.');
-  std::string tail = fmt::format("{} s", std::chrono::duration_cast<std::chrono::seconds>(elapsed).count());
+  std::string numbers = fmt::format("{} s", std::chrono::duration_cast<std::chrono::seconds>(elapsed).count());
   if (steps_ == 0) {
     bar[static_cast<std::size_t>(elapsed / kRedrawInterval) % kBarCells] = '#';
   } else {
     const std::uint64_t done = std::min(done_.load(std::memory_order_relaxed), steps_);
     std::fill_n(bar.begin(), done * kBarCells / steps_, '#');
-    tail = fmt::format("{} of {}, ", done, steps_) + tail;
+    numbers = fmt::format("{} of {}, ", done, steps_) + numbers;
   }
-  const std::string rest = fmt::format(" [{}] {}", bar, tail);
-  const std::size_t room = columns_of(screen_.fd) - std::min(columns_of(screen_.fd), rest.size() + 1);
-  // A line that wraps could not be wiped.
-  write_to(screen_.fd, fmt::format("\r{}{}\x1b[K", std::string_view(label_).substr(0, room), rest));
+  // A line that wraps could not be wiped, and many terminals wrap once the last column is filled.
+  const std::size_t room = columns_of(screen_.fd) - 1;
+  write_to(screen_.fd, fmt::format("\r{}\x1b[K", fit(label_, bar, numbers, room)));
 }
 
 }  // namespace usuzumi::sim

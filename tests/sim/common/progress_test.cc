@@ -16,16 +16,17 @@ using namespace std::chrono_literals;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
+using ::testing::MatchesRegex;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kWipe = "\r\x1b[K";
+constexpr const char* kEraseToEnd = "\x1b[K";
 
-/// A terminal 60 columns wide and whoever looks at it.
+/// A terminal and whoever looks at it.
 class Terminal {
  public:
-  Terminal() {
-    const winsize size{.ws_row = 25, .ws_col = 60, .ws_xpixel = 0, .ws_ypixel = 0};
+  explicit Terminal(unsigned short columns = 60) {
+    const winsize size{.ws_row = 25, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
     if (::openpty(&outer_, &inner_, nullptr, nullptr, &size) != 0) throw std::runtime_error("no pseudo terminal");
   }
   ~Terminal() {
@@ -38,6 +39,11 @@ class Terminal {
   ProgressScreen screen(Clock::time_point from = Clock::now()) const { return {inner_, from}; }
   /// What has been shown up to the first `end`, or after half a minute without it.
   std::string shown_until(const std::string& end) { return read(30s, end); }
+  /// The first line drawn, from its return on and without the wiping of what was there before.
+  std::string first_line() {
+    const std::string text = shown_until(kEraseToEnd);
+    return text.substr(0, text.find(kEraseToEnd));
+  }
   std::string shown_within(std::chrono::milliseconds time) { return read(time, ""); }
 
  private:
@@ -99,10 +105,35 @@ TEST(ProgressBar, SaysNothingWhereThereIsNoTerminal) {
 TEST(ProgressBar, CutsItsLabelWhereTheLineWouldWrap) {
   Terminal terminal;
   Progress progress("reading " + std::string(200, 'x'), 0, terminal.screen());
-  std::string line = terminal.shown_until("\x1b[K");
-  line.resize(line.find("\x1b[K"));
+  const std::string line = terminal.first_line();
   EXPECT_EQ(line.size(), 60u) << "a return and 59 characters: " << line;
   EXPECT_THAT(line, EndsWith(" s"));
+}
+
+TEST(ProgressBar, GivesUpTheBarBeforeTheNumbersWhereTheTerminalIsNarrow) {
+  for (const auto& [columns, expected] :
+       {std::pair<unsigned short, const char*>{30, "\rreading fish.o 0 of 4000, [0-9] s"},
+        {40, "\rreading fish.obj 0 of 4000, [0-9] s"},
+        {20, "\rread 0 of 4000, [0-9] s"},
+        {16, "\r 0 of 4000, [0-9] s"},
+        {9, "\r 0 of 40"},
+        {1, "\r"}}) {
+    Terminal terminal(columns);
+    const Progress progress("reading fish.obj", 4000, terminal.screen());
+    EXPECT_THAT(terminal.first_line(), MatchesRegex(expected)) << columns << " columns";
+  }
+}
+
+TEST(ProgressBar, CutsNoCharacterInHalf) {
+  // " 0 of 4000, 0 s" and the free last column leave 1, 2 and 3 bytes.
+  for (const auto& [columns, expected] :
+       {std::pair<unsigned short, const char*>{17, "\rf 0 of 4000, [0-9] s"},
+        {18, "\rf 0 of 4000, [0-9] s"},
+        {19, "\rf\u00e4 0 of 4000, [0-9] s"}}) {
+    Terminal terminal(columns);
+    const Progress progress("f\u00e4hre.obj", 4000, terminal.screen());
+    EXPECT_THAT(terminal.first_line(), MatchesRegex(expected)) << columns << " columns";
+  }
 }
 
 TEST(ProgressBar, WaitsForTwoSecondsOfTheProgramsLife) {
