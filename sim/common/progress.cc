@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -52,23 +53,32 @@ Clock::time_point end_of_patience() { return program_start + kPatience; }
 
 Progress::Progress(std::string label, std::uint64_t steps, const ProgressScreen& screen)
     : label_(std::move(label)), steps_(steps), screen_(screen), start_(Clock::now()) {
-  if (::isatty(screen_.fd) == 1) thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  if (::isatty(screen_.fd) != 1) return;
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  } catch (const std::exception&) {
+    // No thread or no memory to be had: the work may still succeed, and says so itself if it cannot.
+  }
 }
 
 Progress::~Progress() = default;
 
-void Progress::show(const std::stop_token& stop) const {
-  std::mutex mutex;
-  std::unique_lock lock(mutex);
-  std::condition_variable_any wake;
+void Progress::show(const std::stop_token& stop) const noexcept {
   bool drawn = false;
-  // Short work after the patience has ended is not worth a flicker.
-  Clock::time_point next = std::max(screen_.from, start_ + kRedrawInterval);
-  while (!wake.wait_until(lock, stop, next, [&] { return stop.stop_requested(); })) {
-    const auto now = Clock::now();
-    draw(now - start_);
-    drawn = true;
-    next = now + kRedrawInterval;
+  try {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any wake;
+    // Short work after the patience has ended is not worth a flicker.
+    Clock::time_point next = std::max(screen_.from, start_ + kRedrawInterval);
+    while (!wake.wait_until(lock, stop, next, [&] { return stop.stop_requested(); })) {
+      const auto now = Clock::now();
+      draw(now - start_);
+      drawn = true;
+      next = now + kRedrawInterval;
+    }
+  } catch (const std::exception&) {
+    // No memory for another line: on without a bar.
   }
   if (drawn) write_to(screen_.fd, "\r\x1b[K");
 }

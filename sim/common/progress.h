@@ -22,6 +22,7 @@ struct ProgressScreen {
 };
 
 /// Draws itself from a thread of its own, so that one long step shows as well as many short ones.
+/// It is a decoration: where there is no thread or no memory for it, the work goes on without.
 /// The thread does not survive a fork: make it after, not before.
 class Progress {
  public:
@@ -36,7 +37,7 @@ class Progress {
   void step() { done_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
-  void show(const std::stop_token& stop) const;
+  void show(const std::stop_token& stop) const noexcept;
   void draw(std::chrono::steady_clock::duration elapsed) const;
 
   const std::string label_;
