@@ -33,7 +33,8 @@ class FrameReader {
     camera.fov_y_rad = static_cast<float>(degrees * firmware::kPi / 180);
     const float radius = std::max(bounds.radius(), 1e-6f);
     const float distance = length(camera.eye - bounds.centre());
-    camera.near_distance = static_cast<float>(number("near", double{std::max(distance - radius * 1.01f, radius * 0.01f)}));
+    camera.near_distance =
+        static_cast<float>(number("near", double{std::max(distance - radius * 1.01f, radius * 0.01f)}));
     camera.far_distance = static_cast<float>(number("far", double{distance + radius * 1.01f}));
     const Status status = check(camera);
     if (!status.ok()) fail(status.message);
@@ -51,7 +52,8 @@ class FrameReader {
       if (otherwise != nullptr) return *otherwise;
       fail(fmt::format("there is no \"{}\": give three numbers", key));
     }
-    const bool three = found->is_array() && found->size() == 3 && (*found)[0].is_number() && (*found)[1].is_number() && (*found)[2].is_number();
+    const bool three = found->is_array() && found->size() == 3 && (*found)[0].is_number() && (*found)[1].is_number() &&
+                       (*found)[2].is_number();
     if (!three) fail(fmt::format("\"{}\" must be three numbers", key));
     return {(*found)[0].get<float>(), (*found)[1].get<float>(), (*found)[2].get<float>()};
   }

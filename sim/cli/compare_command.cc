@@ -37,7 +37,9 @@ int compare(const CompareArguments& arguments) {
   options.max_pixels = arguments.max_pixels;
   for (const std::string& text : arguments.ignore) {
     const auto rectangle = parse_rectangle(text);
-    if (!rectangle) throw Error(ExitCode::kUsage, fmt::format("--ignore {}: must be x0:y0-x1:y1, both corners included, e.g. 10:20-30:40", text));
+    if (!rectangle)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--ignore {}: must be x0:y0-x1:y1, both corners included, e.g. 10:20-30:40", text));
     options.ignore.push_back(*rectangle);
   }
   if (!arguments.difference.empty())
@@ -78,7 +80,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);  // so that a picture may follow
   command->add_option("--diff", arguments->difference, "PNG to write: where the pictures differ, in red");
   command->add_flag("--json", arguments->json, "Report as JSON");
-  command->footer("Example: usuzumi compare golden.png actual.png --ignore 0:0-99:19 --diff difference.png\nExit code 0 same, 1 differ, 2 cannot compare.");
+  command->footer(
+      "Example: usuzumi compare golden.png actual.png --ignore 0:0-99:19 --diff difference.png\nExit code 0 same, 1 "
+      "differ, 2 cannot compare.");
   command->callback([arguments, &exit_code] { report_errors(exit_code, [&] { return compare(*arguments); }); });
 }
 

@@ -21,10 +21,12 @@ void append_raw(std::string& out, const T& value) {
 
 std::string ply_text(const MeshToWrite& mesh) {
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+      "z\n{}"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       mesh.positions.size(),
-      mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n",
+      mesh.colours.empty() ? ""
+                           : "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n",
       mesh.indices.size() / 3);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     append_raw(out, mesh.positions[v]);
@@ -56,7 +58,8 @@ bool keeps_colours(const std::filesystem::path& path) { return lower_extension(p
 
 void write_mesh(const std::filesystem::path& path, const MeshToWrite& mesh) {
   if (!is_mesh_file_name(path))
-    throw Error(ExitCode::kUsage, fmt::format("{}: meshes are written as .ply or .obj; choose one of these extensions", path.string()));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: meshes are written as .ply or .obj; choose one of these extensions", path.string()));
   const Progress progress("writing " + path.string());
   write_file_atomically(path, keeps_colours(path) ? ply_text(mesh) : obj_text(mesh));
 }

@@ -53,7 +53,8 @@ PictureSize size_option(const std::string& option, const std::string& value) {
     if (width && height && *width >= kLeastSize && *height >= kLeastSize)
       return {static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
   }
-  throw Error(ExitCode::kUsage, fmt::format("{} {}: must be WIDTHxHEIGHT in pixels, each {} to {}, e.g. 1920x720", option, value, kLeastSize, kMostSize));
+  throw Error(ExitCode::kUsage, fmt::format("{} {}: must be WIDTHxHEIGHT in pixels, each {} to {}, e.g. 1920x720",
+                                            option, value, kLeastSize, kMostSize));
 }
 
 }  // namespace usuzumi::sim

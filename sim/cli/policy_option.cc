@@ -119,7 +119,9 @@ void PolicyOptions::parse(const std::string& word, std::span<const NamedMesh> me
   } else if (name == "random") {
     set_random(word, argument, policy);
   } else {
-    refuse(word, "must be always, below-area:PIXELS, chosen:NAME[,NAME...] or random:SHARE%[:SEED], with 2= or 3= before it for one level");
+    refuse(word,
+           "must be always, below-area:PIXELS, chosen:NAME[,NAME...] or random:SHARE%[:SEED], with 2= or 3= before it "
+           "for one level");
   }
   if (std::none_of(meshes.begin(), meshes.end(), ruled))
     notes_.push_back(fmt::format("--policy {} has no effect: no mesh has level {}", word, levels));

@@ -84,7 +84,8 @@ class CameraPath {
   firmware::Camera at(std::uint32_t frame) const {
     if (!cameras_.empty()) return cameras_[std::min<std::size_t>(frame, cameras_.size() - 1)];
     if (frames_ == 0) return firmware::view_of(bounds_, kStandardAzimuth, kStandardElevation, aspect_);
-    return firmware::orbit(bounds_, kStandardAzimuth + 2 * firmware::kPi * frame / frames_, kStandardElevation, aspect_);
+    return firmware::orbit(bounds_, kStandardAzimuth + 2 * firmware::kPi * frame / frames_, kStandardElevation,
+                           aspect_);
   }
   float aspect() const { return aspect_; }
   std::size_t cameras() const { return cameras_.size(); }  // of the file
@@ -98,13 +99,15 @@ class CameraPath {
 
 Rgba8 background_option(const std::string& value) {
   const bool hex = value.size() == 6 && value.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
-  if (!hex) throw Error(ExitCode::kUsage, fmt::format("--background {}: must be RRGGBB in hexadecimal, e.g. 202428", value));
+  if (!hex)
+    throw Error(ExitCode::kUsage, fmt::format("--background {}: must be RRGGBB in hexadecimal, e.g. 202428", value));
   const auto rgb = static_cast<std::uint32_t>(std::stoul(value, nullptr, 16));
   return rgba8(rgb >> 16, rgb >> 8 & 0xFF, rgb & 0xFF);
 }
 
 /// Light comes over the viewer's right shoulder and follows the camera, so that no side stays dark.
-firmware::FrameRequest request_for(const firmware::Camera& camera, float aspect, const firmware::ThinningSettings& thinning, Rgba8 background) {
+firmware::FrameRequest request_for(const firmware::Camera& camera, float aspect,
+                                   const firmware::ThinningSettings& thinning, Rgba8 background) {
   firmware::FrameRequest request;
   request.model_to_clip = firmware::model_to_clip(camera, aspect);
   const Vec3 back = normalized(camera.eye - camera.target);
@@ -167,7 +170,8 @@ void prepare_outputs(const RunOptions& options) {
 }
 
 void check_combinations(const RunOptions& options) {
-  if (options.orbit && !options.camera.empty()) throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
+  if (options.orbit && !options.camera.empty())
+    throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
   if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty() || !options.placement.empty()))
     throw Error(ExitCode::kUsage,
                 "--thin off leaves nothing for --quota, --policy or --placement to do: drop one of them");
@@ -229,15 +233,20 @@ void add_run_command(CLI::App& app, int& exit_code) {
   for (const BoardDescription& board : boards()) board_names.emplace_back(board.name);
   CLI::App* command = app.add_subcommand("run", "Boot the device with a ROM and record what its panel shows");
   command->add_option("ROM", options->rom, "ROM image: container or bare drawing data")->required();
-  command->add_option("--board", options->board, "The device's memories and clocks")->check(CLI::IsMember(board_names))->capture_default_str();
+  command->add_option("--board", options->board, "The device's memories and clocks")
+      ->check(CLI::IsMember(board_names))
+      ->capture_default_str();
   command->add_option("--size", options->size, "Picture, WIDTHxHEIGHT in pixels; without it the board's panel");
   command->add_option("--frames", options->frames, "Frames to draw")
       ->transform(whole_number(1, kMostFrames))
       ->capture_default_str();
   command->add_flag("--orbit", options->orbit, "Turn once around the model over the frames");
   command->add_option("--camera", options->camera,
-                      "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, \"near\": …, \"far\": …}, …]}");
-  command->add_option("--thin", options->thin, "Thin as the authors allowed, or draw all that fits")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+                      "JSON: {\"frames\": [{\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": …, \"fov_y_deg\": 40, "
+                      "\"near\": …, \"far\": …}, …]}");
+  command->add_option("--thin", options->thin, "Thin as the authors allowed, or draw all that fits")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   command->add_option("--quota", options->quota,
                       "Faces for level-3 meshes instead of the authors' quotas: N over all of them, or P% of each");
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
@@ -249,7 +258,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "random:SHARE%[:SEED]; "
                    "with 2= or 3= before it for one level, so that each may have its own")
       ->allow_extra_args(false);  // so that a ROM may follow
-  command->add_option("--engine", options->engine, "3D engine")->check(CLI::IsMember({"soft", "osmesa"}))->capture_default_str();
+  command->add_option("--engine", options->engine, "3D engine")
+      ->check(CLI::IsMember({"soft", "osmesa"}))
+      ->capture_default_str();
   command
       ->add_option("--threads", options->threads, "Host threads of the soft engine; the pictures do not depend on it")
       ->transform(whole_number(1, kMostThreads))

@@ -45,7 +45,8 @@ class JoinedMesh {
 
   std::uint32_t vertex(Vec3 p, Rgba8 colour) {
     const Vec3 key{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // -0 becomes 0
-    const auto [found, fresh] = numbers_.try_emplace({key, with_colours_ ? colour.bits : 0u}, static_cast<std::uint32_t>(positions.size()));
+    const auto [found, fresh] =
+        numbers_.try_emplace({key, with_colours_ ? colour.bits : 0u}, static_cast<std::uint32_t>(positions.size()));
     if (fresh) {
       positions.push_back(key);
       if (with_colours_) colours.push_back(colour);
@@ -92,7 +93,8 @@ JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, boo
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
       std::uint32_t v[3];
       mesh.face(f, v);
-      for (std::uint32_t& i : v) i = joined.vertex(mesh.positions[i], mesh.colours.empty() ? mesh.base_colour : mesh.colours[i]);
+      for (std::uint32_t& i : v)
+        i = joined.vertex(mesh.positions[i], mesh.colours.empty() ? mesh.base_colour : mesh.colours[i]);
       joined.face(v);
     }
   });
@@ -160,20 +162,23 @@ std::span<T> copied_into(Arena& arena, const std::vector<T>& source) {
 
 int thin(const ThinOptions& options) {
   if (!is_mesh_file_name(options.output))
-    throw Error(ExitCode::kUsage, fmt::format("-o {}: meshes are written as .ply or .obj; choose one of these extensions", options.output.string()));
+    throw Error(ExitCode::kUsage,
+                fmt::format("-o {}: meshes are written as .ply or .obj; choose one of these extensions",
+                            options.output.string()));
   if (options.colours && !keeps_colours(options.output))
     throw Error(ExitCode::kUsage, fmt::format("--colours: {} cannot hold them; write a .ply or leave --colours out",
                                               options.output.string()));
   const FaceQuota quota = quota_option("--faces", options.faces);
   check_output(options.output, "-o", std::array{options.input});
   const JoinedMesh joined = load_joined(options.input, options.colours);
-  if (joined.indices.empty()) throw Error(ExitCode::kBadInput, fmt::format("{}: the model has no faces to thin", options.input.string()));
+  if (joined.indices.empty())
+    throw Error(ExitCode::kBadInput, fmt::format("{}: the model has no faces to thin", options.input.string()));
 
   const auto vertices_in = static_cast<std::uint32_t>(joined.positions.size());
   const auto faces_in = static_cast<std::uint32_t>(joined.indices.size() / 3);
   constexpr std::size_t kSlack = 256;  // alignment of each array
-  HostArena host(joined.positions.size() * sizeof(Vec3) + joined.colours.size() * sizeof(Rgba8) + joined.indices.size() * 4 +
-                 firmware::qem_scratch_bytes(vertices_in, faces_in) + kSlack);
+  HostArena host(joined.positions.size() * sizeof(Vec3) + joined.colours.size() * sizeof(Rgba8) +
+                 joined.indices.size() * 4 + firmware::qem_scratch_bytes(vertices_in, faces_in) + kSlack);
   firmware::WorkingMesh mesh;
   mesh.positions = copied_into(host.arena, joined.positions);
   mesh.colours = copied_into(host.arena, joined.colours);
@@ -187,7 +192,8 @@ int thin(const ThinOptions& options) {
     return firmware::simplify_qem(mesh, {target_of(quota, faces_in), placement_option(options.placement)}, host.arena);
   }();
   const double thin_ms = stopwatch.elapsed_ms();
-  if (!outcome.ok()) throw Error(ExitCode::kDevice, fmt::format("{}: {}", options.input.string(), outcome.status().message));
+  if (!outcome.ok())
+    throw Error(ExitCode::kDevice, fmt::format("{}: {}", options.input.string(), outcome.status().message));
 
   write_mesh(options.output, {mesh.positions.first(mesh.vertex_count),
                               mesh.colours.first(mesh.colours.empty() ? 0 : mesh.vertex_count),
@@ -205,10 +211,12 @@ int thin(const ThinOptions& options) {
     fmt::print("{}\n", report.dump(2));
     return exit_status(ExitCode::kOk);
   }
-  fmt::print("{}: {} faces -> {} faces, {} -> {} vertices, {:.1f} ms, {:.1f} MB of RAM, largest error {:.3g}\n", options.output.string(),
-             faces_in, mesh.face_count, vertices_in, mesh.vertex_count, thin_ms, static_cast<double>(host.arena.high_water()) / 1e6,
-             outcome->max_error);
-  if (!reached) fmt::print("The quota was not reached: every collapse left would turn a face over, make a sliver or break the surface.\n");
+  fmt::print("{}: {} faces -> {} faces, {} -> {} vertices, {:.1f} ms, {:.1f} MB of RAM, largest error {:.3g}\n",
+             options.output.string(), faces_in, mesh.face_count, vertices_in, mesh.vertex_count, thin_ms,
+             static_cast<double>(host.arena.high_water()) / 1e6, outcome->max_error);
+  if (!reached)
+    fmt::print(
+        "The quota was not reached: every collapse left would turn a face over, make a sliver or break the surface.\n");
   return exit_status(ExitCode::kOk);
 }
 
@@ -216,13 +224,15 @@ int thin(const ThinOptions& options) {
 
 void add_thin_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ThinOptions>();
-  CLI::App* command = app.add_subcommand("thin", "Thin one model by the firmware's own level-3 method and write it as a mesh");
+  CLI::App* command =
+      app.add_subcommand("thin", "Thin one model by the firmware's own level-3 method and write it as a mesh");
   command
       ->add_option("MODEL", options->input,
                    fmt::format("A model ({}), a ROM image, or bare drawing data (.rom .bin)", kModelExtensions))
       ->required();
   command->add_option("-o,--output", options->output, "Mesh to write: .ply or .obj")->required();
-  command->add_option("--faces", options->faces, "Faces to keep over the whole model: a count, or a share like 25%")->required();
+  command->add_option("--faces", options->faces, "Faces to keep over the whole model: a count, or a share like 25%")
+      ->required();
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
       ->check(CLI::IsMember({"optimal", "midpoint"}))
       ->capture_default_str();

@@ -23,16 +23,16 @@ class CommandTest : public ::testing::Test {
  protected:
   void SetUp() override {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("usuzumi-") + info->test_suite_name() + "-" + info->name() + "-" + std::to_string(::getpid()));
+    folder_ = std::filesystem::temp_directory_path() / (std::string("usuzumi-") + info->test_suite_name() + "-" +
+                                                        info->name() + "-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// `arguments` as typed in a shell, in the test's folder. What `streams` sends elsewhere is empty in the result.
   Ran usuzumi(const std::string& arguments, const std::string& streams = ">stdout.txt 2>stderr.txt") const {
-    const std::string command = "cd '" + folder_.string() + "' && timeout 120 '" USUZUMI_COMMAND "' " + arguments + " " +
-                                streams + " </dev/null";
+    const std::string command = "cd '" + folder_.string() + "' && timeout 120 '" USUZUMI_COMMAND "' " + arguments +
+                                " " + streams + " </dev/null";
     const int status = std::system(command.c_str());
     Ran ran;
     ran.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
@@ -50,10 +50,13 @@ class CommandTest : public ::testing::Test {
     return s.str();
   }
   nlohmann::json json_file(const std::string& name) const { return nlohmann::json::parse(text(name)); }
-  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name, std::ios::binary) << content; }
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
   }
   const std::filesystem::path& folder() const { return folder_; }
 

@@ -51,7 +51,8 @@ TEST_F(RunCommand, WritesAPictureAndStatisticsOfEveryFrame) {
 
 TEST_F(RunCommand, ShowsTheSamePictureForAnyNumberOfThreadsAndAtEveryRun) {
   const auto once = stats("--frames 2 --orbit");
-  for (const char* options : {"--frames 2 --orbit", "--frames 2 --orbit --threads 2", "--frames 2 --orbit --threads 3"}) {
+  for (const char* options :
+       {"--frames 2 --orbit", "--frames 2 --orbit --threads 2", "--frames 2 --orbit --threads 3"}) {
     const auto again = stats(options);
     for (std::size_t i = 0; i < 2; ++i)
       for (const char* key : {"crc32", "engine_cycles", "thin_ms", "draw_ms", "scanout_ms", "faces_drawn"})
@@ -122,7 +123,8 @@ TEST_F(RunCommand, BareDrawingDataThinsToTheSameCount) {
 }
 
 TEST_F(RunCommand, TakesCamerasFromAFile) {
-  write("path.json", R"({"frames": [{"eye": [10, 30, 40], "target": [10, 0, 10]}, {"eye": [10, 40, 40], "target": [10, 0, 10], "fov_y_deg": 60}]})");
+  write("path.json", R"({"frames": [{"eye": [10, 30, 40], "target": [10, 0, 10]},
+                                  {"eye": [10, 40, 40], "target": [10, 0, 10], "fov_y_deg": 60}]})");
   const auto report = stats("--frames 3 --camera path.json");
   EXPECT_NE(report["frames"][0]["crc32"], report["frames"][1]["crc32"]);
   EXPECT_EQ(report["frames"][1]["crc32"], report["frames"][2]["crc32"]) << "the last camera holds on";

@@ -40,7 +40,8 @@ TEST_F(ThinCommand, WritesWhatItReportsInBothFormats) {
   const std::string ply = text("out.ply");
   EXPECT_NE(ply.find("element face " + std::to_string(report["faces_out"].get<int>()) + "\n"), std::string::npos);
   const auto header = ply.find("end_header\n") + 11;
-  EXPECT_EQ(ply.size() - header, report["vertices_out"].get<std::size_t>() * 12 + report["faces_out"].get<std::size_t>() * 13);
+  EXPECT_EQ(ply.size() - header,
+            report["vertices_out"].get<std::size_t>() * 12 + report["faces_out"].get<std::size_t>() * 13);
   // What was written can be thinned again, and nothing is left to do.
   const auto again = usuzumi("thin out.ply -o again.ply --faces 50 --json").json();
   EXPECT_EQ(again["faces_in"], report["faces_out"]);

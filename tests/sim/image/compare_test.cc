@@ -113,8 +113,8 @@ TEST(Compare, DifferentSizesCannotBeCompared) {
 TEST(ParseRectangle, TakesTwoCornersAndNothingElse) {
   EXPECT_EQ(parse_rectangle("10:20-30:40"), (Rectangle{10, 20, 30, 40}));
   EXPECT_EQ(parse_rectangle("0:0-0:0"), (Rectangle{0, 0, 0, 0}));
-  for (const char* bad : {"", "1", "1:2", "1:2-3", "1:2-3:", "1:2-3:4 ", " 1:2-3:4", "1:2-3:4x", "a:2-3:4", "1,2-3,4", "-1:2-3:4",
-                          "5:2-3:4", "1:5-3:4", "1:2-3:99999999999", "1:2-3:4-5:6"})
+  for (const char* bad : {"", "1", "1:2", "1:2-3", "1:2-3:", "1:2-3:4 ", " 1:2-3:4", "1:2-3:4x", "a:2-3:4", "1,2-3,4",
+                          "-1:2-3:4", "5:2-3:4", "1:5-3:4", "1:2-3:99999999999", "1:2-3:4-5:6"})
     EXPECT_FALSE(parse_rectangle(bad)) << bad;
 }
 

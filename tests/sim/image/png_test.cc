@@ -18,7 +18,9 @@ using ::testing::HasSubstr;
 
 class PngTest : public ::testing::Test {
  protected:
-  PngTest() : folder_(fs::path(::testing::TempDir()) / ("usuzumi_png_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+  PngTest()
+      : folder_(fs::path(::testing::TempDir()) /
+                ("usuzumi_png_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

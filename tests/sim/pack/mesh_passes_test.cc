@@ -119,10 +119,12 @@ TEST(Weld, PolesAndSeamsOfASphereMadeWithSinesClose) {
   for (std::uint32_t j = 0; j <= kRings; ++j)
     for (std::uint32_t i = 0; i <= kSegments; ++i) {  // the seam twice, as texture coordinates ask for
       const double theta = M_PI * j / kRings, phi = 2 * M_PI * i / kSegments;
-      mesh.positions.push_back({static_cast<float>(50 * std::sin(theta) * std::cos(phi)), static_cast<float>(50 * std::cos(theta)),
+      mesh.positions.push_back({static_cast<float>(50 * std::sin(theta) * std::cos(phi)),
+                                static_cast<float>(50 * std::cos(theta)),
                                 static_cast<float>(50 * std::sin(theta) * std::sin(phi))});
     }
-  EXPECT_GT(sim::number_positions(mesh.positions).first_vertex.size(), (kRings - 1) * kSegments + 2) << "sin(pi) is not 0";
+  EXPECT_GT(sim::number_positions(mesh.positions).first_vertex.size(), (kRings - 1) * kSegments + 2)
+      << "sin(pi) is not 0";
   sim::drop_rounding_noise(mesh);
   EXPECT_EQ(sim::number_positions(mesh.positions).first_vertex.size(), (kRings - 1) * kSegments + 2);
 }
