@@ -115,8 +115,11 @@ Status check_header(const Words& words, std::size_t rom_bytes) {
   if (header.version_major != format::kVersionMajor)
     return unsupported("container is of another major version: pack it again with this release, at byte offset", 8);
   if (header.flags != 0) return unsupported("container has flags this release does not know, at byte offset", 12);
-  if (header.file_bytes > rom_bytes) return damaged("file is truncated: it should have bytes", header.file_bytes);
-  if (header.file_bytes < rom_bytes) return damaged("file is too long: it should end at byte", header.file_bytes);
+  if (header.file_bytes > rom_bytes)
+    return damaged("file is truncated: its header promises more, at byte offset",
+                   static_cast<std::uint32_t>(rom_bytes));
+  if (header.file_bytes < rom_bytes)
+    return damaged("file is too long: it should end at byte offset", header.file_bytes);
   if (header.file_bytes % 4 != 0) return damaged("file size is not a multiple of 4, at byte offset", 16);
   return ok_status();
 }
