@@ -53,11 +53,8 @@ struct Section {                   // 16 bytes each, from offset 32
 static_assert(sizeof(Section) == 16);
 
 enum class Topology : std::uint32_t { kStrip = 0, kList = 1, kFan = 2, kIndexed = 3 };
-enum class QuotaKind : std::uint32_t {
-  kNone = 0,
-  kFaces = 1,
-  kMillionths = 2
-};  // kMillionths: of the mesh's own faces
+/// kMillionths: of the mesh's own faces.
+enum class QuotaKind : std::uint32_t { kNone = 0, kFaces = 1, kMillionths = 2 };
 enum class Method : std::uint32_t { kQem = 0 };
 
 inline constexpr std::uint32_t kFlagTelltale = 1;  // never dropped, whatever memory or policy say

@@ -27,8 +27,8 @@ inline constexpr Corner kNoCorner = kCornerMask;    // ends a list
 inline constexpr std::uint32_t kRepresentative = 1u << 30;  // in links: this half-edge stands for its edge
 inline constexpr std::uint32_t kRefused = 1u << 31;  // in links: its collapse was refused and nothing near has changed
 inline constexpr std::uint32_t kTouchesRefused = 1u << 31;  // in Place::mark: an edge here may be marked kRefused
-inline constexpr std::uint32_t kSingular =
-    1u << 30;  // in Place::mark: an edge here has not two faces that run opposite ways
+// In Place::mark: an edge here has not two faces that run opposite ways.
+inline constexpr std::uint32_t kSingular = 1u << 30;
 inline constexpr std::uint32_t kPlaceFlags = kTouchesRefused | kSingular;
 inline constexpr std::uint32_t kDeadFace = 0xFFFFFFFFu;     // in the first index of a face that is gone
 inline constexpr std::uint32_t kMostFaces = (1u << 28) - 1;

@@ -16,8 +16,8 @@ Decision narrowed(Decision decision, std::uint32_t quota_halvings) {
 }
 
 unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
-constexpr unsigned kSizeClasses =
-    40;  // working bytes of one mesh stay below 2^39: 2^30 bytes of ROM, under 2^8 times that
+// Working bytes of one mesh stay below 2^39: 2^30 bytes of ROM, under 2^8 times that.
+constexpr unsigned kSizeClasses = 40;
 
 }  // namespace
 

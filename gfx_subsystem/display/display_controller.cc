@@ -15,8 +15,7 @@ DisplayController::DisplayController(BusMemory& memory, VideoSink& sink, const D
       fifo_{config.reference_hz, config.bus_bytes_per_second, config.fifo_bytes},
       registers_(kTable, log) {}
 
-// -----------------------------------------------------------------------------------------------------------------
-// time
+// ---------------------------------------------------------------------------------------------------------------- time
 
 /// The signal begins with the vertical sync.
 void DisplayController::start() {
@@ -66,8 +65,7 @@ void DisplayController::begin_vertical_blank() {
   raise(kIntVerticalBlank);
 }
 
-// --------------------------------------------------------------------------------------------------------------
-// picture
+// ------------------------------------------------------------------------------------------------------------- picture
 
 void DisplayController::send_picture_line() {
   std::array<LayerRow, FrameConfig::kCursor + 1> rows;
@@ -127,8 +125,7 @@ void DisplayController::send_blanking(bool vsync) {
   sink_.segment({.vsync = vsync, .pixel_count = geometry_.back_porch});
 }
 
-// ------------------------------------------------------------------------------------------------------------
-// signature
+// ----------------------------------------------------------------------------------------------------------- signature
 
 void DisplayController::sign_line() {
   const Window& w = frame_.window;

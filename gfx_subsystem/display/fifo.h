@@ -9,9 +9,8 @@
 // Between two places where a layer begins or ends, demand d and supply s per pixel are constant, so that the fill q
 // before the k-th pixel is q0 + k (s - d), capped at the FIFO's size F:
 //   s >= d: q never falls, so that the first pixel decides: starved iff q0 < d;
-//   s <  d: q never meets the cap after the first pixel; pixel k is starved iff q0 - k (d - s) < d, the first such
-//   being
-//           k = floor((q0 - d) / (d - s)) + 1, or 0 when q0 < d.
+//   s <  d: q never meets the cap after the first pixel; pixel k is starved iff q0 - k (d - s) < d, the first
+//           such being k = floor((q0 - d) / (d - s)) + 1, or 0 when q0 < d.
 // All amounts are held in bytes * ticks_per_second, so that nothing is rounded; below 2^63 for 20 bytes a pixel, lines
 // of 8192 pixels, and buses and clocks up to 100 G per second.
 #pragma once

@@ -11,8 +11,8 @@ namespace usuzumi::gfx {
 
 struct EngineState {
   command::SetColourTarget colour_target;
-  std::span<std::byte>
-      colour_memory;  // height * stride bytes (the last row may end at its last pixel); empty: no target
+  // height * stride bytes (the last row may end at its last pixel); empty: no target.
+  std::span<std::byte> colour_memory;
   command::SetDepthTarget depth_target;
   std::span<std::byte> depth_memory;   // empty: no depth target
   command::SetScissor scissor;         // clipped to the target

@@ -2,24 +2,20 @@
 //
 // Window space     x runs right, y runs DOWN, the centre of pixel (px, py) lies at (px + 0.5, py + 0.5).
 // Snapped vertices 24.8 fixed point: X = x * 256 rounded to nearest, ties to even. |X| <= 2^22 because vertices beyond
-// the
-//                  guard band (kGuardPixels) are clipped in floating point before any conversion to an integer.
+//                  the guard band (kGuardPixels) are clipped in floating point before any conversion to an integer.
 // Signed area      area = (X1 - X0)(Y2 - Y0) - (X2 - X0)(Y1 - Y0): twice the area in 1/65536 square pixel. With y down,
 //                  area > 0 is CLOCKWISE as seen on the panel. The set-up swaps two vertices of the others, so that
 //                  every triangle it describes has area > 0.
 // Edge functions   from vertex i to j: E(X, Y) = A (X - Xi) + B (Y - Yi), A = Yi - Yj, B = Xj - Xi; E > 0 inside.
 // Top-left rule    a pixel whose centre lies exactly on an edge belongs to the triangle when the edge is a left one (A
-// > 0)
-//                  or a horizontal top one (A == 0 and B > 0): then E >= 0 is inside; for every other edge E >= 1 is,
-//                  written as E - 1 >= 0. An edge shared by two triangles is left or top for exactly one of them.
+//                  > 0) or a horizontal top one (A == 0 and B > 0): then E >= 0 is inside; for every other edge E >= 1
+//                  is, written as E - 1 >= 0. An edge shared by two triangles is left or top for exactly one of them.
 // Per pixel        E at pixel centres changes by 256 A and 256 B per pixel, so floor(E / 256) changes by exactly A and
-// B
-//                  and has E's sign: the raster works on e = floor(E / 256) in 32 bits, pixel steps A and B.
+//                  B and has E's sign: the raster works on e = floor(E / 256) in 32 bits, pixel steps A and B.
 // Colour           "lane units": 16 bits whose top bits are the channel of the target (8 of 8888, 5-6-5 of 565); a
-// value
-//                  carries +1/2 of the channel's step, so that dropping the low bits rounds to nearest. Arithmetic is
-//                  modulo 2^16: a covered pixel's true value lies in range, and the error of the planes stays below the
-//                  half step (see kMaxSpan), so nothing wraps that is seen.
+//                  value carries +1/2 of the channel's step, so that dropping the low bits rounds to nearest.
+//                  Arithmetic is modulo 2^16: a covered pixel's true value lies in range, and the error of the planes
+//                  stays below the half step (see kMaxSpan), so nothing wraps that is seen.
 // Depth            24.8 unsigned, or 16.8 for unorm16, with +1/2 as well, modulo 2^32. Linear in window space.
 #pragma once
 

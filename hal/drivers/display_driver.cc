@@ -65,8 +65,7 @@ Status DisplayDriver::probe() {
   return {StatusCode::kUnavailable, "no display controller answers; check its base address in the memory map", base_};
 }
 
-// ------------------------------------------------------------------------------------------------------- mode, on and
-// off
+// ---------------------------------------------------------------------------------------------------- mode, on and off
 
 Status DisplayDriver::set_mode(const DisplayMode& mode) {
   if (mode.width == 0 || mode.height == 0) return invalid("display size must not be 0");
@@ -92,8 +91,7 @@ Status DisplayDriver::enable() {
 void DisplayDriver::disable() { set_bits(Dcm1::kOffset, Dcm1::kDen.mask(), false); }
 bool DisplayDriver::running() { return Dst::kRun.get(read(Dst::kOffset)) != 0; }
 
-// ---------------------------------------------------------------------------------------------------------------
-// layers
+// -------------------------------------------------------------------------------------------------------------- layers
 
 Status DisplayDriver::configure_layer(std::uint32_t layer, const LayerConfig& c) {
   if (const Status status = check_layer(layer, c); !status.ok()) return status;
@@ -145,8 +143,7 @@ std::uint32_t DisplayDriver::shown_bank(std::uint32_t layer) {
   return layer < kLayerCount ? LayerFlip::kShown.get(read(layer_register(layer, LayerFlip::kOffset))) : 0;
 }
 
-// ---------------------------------------------------------------------------------------------------------------
-// cursor
+// -------------------------------------------------------------------------------------------------------------- cursor
 
 Status DisplayDriver::set_cursor_image(BusAddress address) {
   if (address % 4 != 0) return invalid("the cursor image must lie at a multiple of 4");
@@ -162,8 +159,7 @@ Status DisplayDriver::move_cursor(std::int32_t x, std::int32_t y) {
 
 void DisplayDriver::show_cursor(bool shown) { set_bits(Dcm1::kOffset, Dcm1::kCursor.mask(), shown); }
 
-// ------------------------------------------------------------------------------------------------ interrupts and
-// faults
+// ----------------------------------------------------------------------------------------------- interrupts and faults
 
 void DisplayDriver::enable_vertical_blank_interrupt(bool enabled) {
   set_bits(IntEn::kOffset, kIntVerticalBlank, enabled);
@@ -187,8 +183,7 @@ void DisplayDriver::clear_faults() {
   write(IntSt::kOffset, kIntAll & ~kIntVerticalBlank);
 }
 
-// ------------------------------------------------------------------------------------------------------------
-// signature
+// ----------------------------------------------------------------------------------------------------------- signature
 
 void DisplayDriver::enable_picture_signature(bool enabled) { set_bits(Sgc::kOffset, Sgc::kPic.mask(), enabled); }
 

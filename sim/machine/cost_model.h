@@ -20,15 +20,15 @@ struct CpuCost {
 };
 
 inline constexpr std::array<CpuCost, static_cast<std::size_t>(CpuWork::kCount)> kCpuCosts{{
-    {CpuWork::kVertexCopied, 30},   // 20 bytes (position, normal, colour) out of flash, checked, into RAM
-    {CpuWork::kIndexCopied, 8},     // 4 bytes likewise, compared with the vertex count
-    {CpuWork::kFaceMeasured, 180},  // three corners of 16 multiply-adds and a divide; outcodes, cross product, sum;
-                                    // clipped faces average in
+    {CpuWork::kVertexCopied, 30},        // 20 bytes (position, normal, colour) out of flash, checked, into RAM
+    {CpuWork::kIndexCopied, 8},          // 4 bytes likewise, compared with the vertex count
+    {CpuWork::kFaceMeasured, 180},       // three corners of 16 multiply-adds and a divide; outcodes, cross product,
+                                         // sum; clipped faces average in
     {CpuWork::kConnectivityBuilt, 100},  // three corners counted and placed: five scattered accesses
-    {CpuWork::kEdgeCosted, 200},     // two quadrics added, 3x3 solved, error evaluated: about 90 operations, 4 misses;
-                                     // the comparison with the horizon with it
-    {CpuWork::kQueueOperation, 90},  // its share of sorting a batch, or about four levels of a heap, one miss each
-    {CpuWork::kEdgeCollapsed, 500},  // flip and link test around two one-rings of six faces, then relinked
+    {CpuWork::kEdgeCosted, 200},         // two quadrics added, 3x3 solved, error evaluated: about 90 operations,
+                                         // 4 misses; the comparison with the horizon with it
+    {CpuWork::kQueueOperation, 90},      // its share of sorting a batch, or about four levels of a heap, one miss each
+    {CpuWork::kEdgeCollapsed, 500},      // flip and link test around two one-rings of six faces, then relinked
     {CpuWork::kCommandWritten, 2},
 }};
 

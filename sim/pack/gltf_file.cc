@@ -55,8 +55,8 @@ std::string_view glb_json(const fs::path& path, GltfFile& file) {
     refuse(path, fmt::format("truncated: {} bytes of {}; copy or export it again", b.size(), length));
   file.version_major = static_cast<int>(version);
   if (version == 2 && word(b, 16) != kJsonChunk) refuse(path, "its first chunk is not JSON; export it again");
-  const std::size_t start =
-      kGlbHeaderBytes + kChunkHeaderBytes;  // version 1: a 20-byte header that ends in length and format
+  // Version 1 has a 20-byte header that ends in length and format.
+  const std::size_t start = kGlbHeaderBytes + kChunkHeaderBytes;
   if (json_bytes > b.size() - start) refuse(path, "its JSON runs past the end of the file; copy or export it again");
   return text_of(b, start, json_bytes);
 }

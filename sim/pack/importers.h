@@ -13,8 +13,7 @@ namespace usuzumi::sim {
 Model import_gltf(const std::filesystem::path& path, const GltfFile& file);
 
 /// .obj .ply .stl .off .dae .ac and glTF 1.0 by assimp: polygons cut into triangles, node transforms applied. Of
-/// glTF 1.0
-/// (`gltf1`) the nodes' transforms come from the file itself where it says them in parts.
+/// glTF 1.0 (`gltf1`) the nodes' transforms come from the file itself where it says them in parts.
 Model import_assimp(const std::filesystem::path& path, const GltfFile* gltf1 = nullptr);
 
 }  // namespace usuzumi::sim

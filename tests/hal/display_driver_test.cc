@@ -238,8 +238,7 @@ TEST(DisplayDriver, FaultsNameWhatHappened) {
   EXPECT_EQ(w.driver.faults().configuration_detail, 0x00020000u);
 }
 
-// ------------------------------------------------------------------------------------------- with a controller behind
-// it
+// ----------------------------------------------------------------------------------------- with a controller behind it
 
 class NoMemory final : public BusMemory {
  private:
@@ -325,8 +324,7 @@ TEST(DisplayDriverOnTheController, NothingTheDriverWritesIsAGuestMistake) {
   EXPECT_EQ(d.controller.registers().unimplemented_count(), 0u);
 }
 
-// ----------------------------------------------------------------------------------------------------------------
-// modes
+// --------------------------------------------------------------------------------------------------------------- modes
 
 TEST(DisplayModes, CommonPanelsGetTheirDataSheetsTiming) {
   EXPECT_EQ(kMode480x272.pixel_clock_hz(), 9'090'909u);

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""No line of source is longer than .clang-format says; clang-format --lines=N:N mends one."""
+"""No line of source is longer than .clang-format says.
+
+clang-format --lines=N:N mends code; tables in comments are wrapped by hand, for it runs their rows together.
+"""
 import pathlib
 import re
 import sys

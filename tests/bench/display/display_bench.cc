@@ -1,7 +1,7 @@
 // Scan-out on the host: frames a second of 1920 x 720 with two layers, the upper one blended by its own alpha.
 //
-// One iteration is one frame: 720 picture lines composed, signed where the benchmark says so, and sent. The issue asks
-// for 60 frames a second on one core.
+// One iteration is one frame: 720 picture lines composed, signed where the benchmark says so, and sent. The least that
+// is of use is 60 frames a second on one core.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>

@@ -270,8 +270,8 @@ TEST_F(RunCommand, TakesNothingFromACameraFileThatItWouldNotUse) {
 }
 
 TEST_F(RunCommand, LooksForRoomForItsOutputsBeforeItDraws) {
-  const std::string a_long_run =
-      "run hills.rom --size 160x96 --orbit --frames 1000000 ";  // stopped by the test's time limit
+  // Stopped by the test's time limit.
+  const std::string a_long_run = "run hills.rom --size 160x96 --orbit --frames 1000000 ";
   expect_one_line_error(usuzumi(a_long_run + "--stats missing/stats.json"), 4, "missing");
   expect_one_line_error(usuzumi(a_long_run + "--out /dev/null/pictures"), 4, "choose another place");
   expect_one_line_error(usuzumi(a_long_run + "--out /proc"), 4, "/proc/frame-0000.png");

@@ -23,15 +23,19 @@
 //   0x030   SCAN   RO     0                     15-0 line being sent
 //   0x034   BGC    RW     0           yes       background colour, red 23-16, green 15-8, blue 7-0
 //   0x038   LOCK   RW     0                     0: while 1, nothing is latched at vertical blank
-//   0x03C   CFGE   W1C    0                     what CFE is about: 0 timing, 1 signature window, 19-16 layers 3-0, 24
-//   cursor 0x100   DCM1   RW     0           yes *     13-8 SC, 19-16 layer 3-0 enable, 24 cursor enable, 31 DEN 0x140
-//   L0M    RW     0x00FF0000  yes       1-0 FMT, 4 KEY, 5 PPA, 23-16 GA 0x144   L0ST   RW     0           yes stride in
-//   bytes, a multiple of 4 0x148   L0DA0  RW     0           yes       address of bank 0, a multiple of 4 0x14C   L0DA1
-//   RW     0           yes       address of bank 1, a multiple of 4 0x150   L0P    RW     0           yes       12-0 x,
-//   28-16 y of the upper left corner, two's complement 0x154   L0S    RW     0           yes       11-0 width - 1,
-//   27-16 height - 1 0x158   L0K    RW     0           yes       colour key, red 23-16, green 15-8, blue 7-0 0x15C L0F
-//   RW/RO  0           yes       0 BANK wanted (RW); 30 SHOWN, 31 PEND (RO) 0x180, 0x1C0, 0x200 the same for layers 1,
-//   2, 3 0x240   CUA    RW     0           yes       cursor image: 64 x 64 ARGB8888, 256 bytes a row; a multiple of 4
+//   0x03C   CFGE   W1C    0                     what CFE is about: 0 timing, 1 signature window, 19-16 layers 3-0,
+//                                               24 cursor
+//   0x100   DCM1   RW     0           yes *     13-8 SC, 19-16 layer 3-0 enable, 24 cursor enable, 31 DEN
+//   0x140   L0M    RW     0x00FF0000  yes       1-0 FMT, 4 KEY, 5 PPA, 23-16 GA
+//   0x144   L0ST   RW     0           yes       stride in bytes, a multiple of 4
+//   0x148   L0DA0  RW     0           yes       address of bank 0, a multiple of 4
+//   0x14C   L0DA1  RW     0           yes       address of bank 1, a multiple of 4
+//   0x150   L0P    RW     0           yes       12-0 x, 28-16 y of the upper left corner, two's complement
+//   0x154   L0S    RW     0           yes       11-0 width - 1, 27-16 height - 1
+//   0x158   L0K    RW     0           yes       colour key, red 23-16, green 15-8, blue 7-0
+//   0x15C   L0F    RW/RO  0           yes       0 BANK wanted (RW); 30 SHOWN, 31 PEND (RO)
+//   0x180, 0x1C0, 0x200                         the same for layers 1, 2, 3
+//   0x240   CUA    RW     0           yes       cursor image: 64 x 64 ARGB8888, 256 bytes a row; a multiple of 4
 //   0x244   CUP    RW     0           yes       12-0 x, 28-16 y of its upper left corner, two's complement
 //   0x280   SGC    RW     0           yes       0 PIC, 1 WIN, 2 CHK
 //   0x284   SGP    RW     0           yes       window: 11-0 x, 27-16 y
@@ -42,8 +46,8 @@
 //   0x298   SGFR   RO     0                     FCNT of the frame that both belong to
 //
 // * DEN is not shadowed. 0 to 1 while stopped: latches all, and starts with the vertical sync, so that a panel waiting
-// for it
-//   loses no picture; with illegal timing it does not start and raises CFE. 1 to 0: the frame being sent is completed.
+//   for it loses no picture; with illegal timing it does not start and raises CFE. 1 to 0: the frame being sent is
+//   completed.
 #pragma once
 
 #include <cstdint>
@@ -100,8 +104,7 @@ struct Timing {
 /// vertically, and each within its field.
 constexpr const char* timing_fault(const Timing& t);
 
-// --------------------------------------------------------------------------------------------------- control and
-// status
+// -------------------------------------------------------------------------------------------------- control and status
 
 /// Bits of INTST and INTEN.
 inline constexpr std::uint32_t kIntVerticalBlank = 1u << 0;       // VB: the last line of the picture has been sent
@@ -144,8 +147,7 @@ struct Dcm1 {
   static constexpr RegisterField kSc{8, 6}, kLayers{16, 4}, kCursor{24, 1}, kDen{31, 1};
 };
 
-// ------------------------------------------------------------------------------------------------------ layers and
-// cursor
+// --------------------------------------------------------------------------------------------------- layers and cursor
 
 /// Layers lie in front of each other in order, 0 at the back, the cursor before all. Where the window leaves the
 /// picture it is cut off.
@@ -205,8 +207,7 @@ struct Cup {
   static constexpr std::uint32_t kOffset = 0x244;
 };
 
-// --------------------------------------------------------------------------------------------------------- signature
-// unit
+// ------------------------------------------------------------------------------------------------------ signature unit
 
 /// CRC-32/ISO-HDLC over the bytes R, G, B of each pixel as sent, left to right and top to bottom. PIC: the whole
 /// picture; WIN: the window, which must lie inside the picture; CHK: raise SGM when the window's CRC is not SGR.
