@@ -24,8 +24,11 @@ constexpr bool kFourAtOnce = false;
 constexpr bool kFourAtOnce = true;
 #endif
 
-bool believable(float d0, float d1, float d2, float far_squared, float edge_squared) {
-  return d0 > 0 && d1 > 0 && d2 > 0 && far_squared <= kFarthestMinimumSquared * edge_squared;
+// Of one edge: not 0 where its minimum is believed. Of four: -1 there, 0 elsewhere, lane by lane.
+template <class F>
+[[gnu::always_inline]] inline auto believable(const EdgeMinimum<F>& m) {
+  return (m.system.d0 > 0) & (m.system.d1 > 0) & (m.system.d2 > 0) &
+         (m.far_squared <= kFarthestMinimumSquared * m.edge_squared);
 }
 
 void use_middle(EdgeCost& result, Vec3 edge) {
@@ -78,7 +81,7 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
     return result;
   }
   minimise(e, m);
-  if (believable(m.system.d0, m.system.d1, m.system.d2, m.far_squared, m.edge_squared)) {
+  if (believable(m) != 0) {
     result.offset = {m.offset.x, m.offset.y, m.offset.z};
     result.cost = at_least_zero(m.cost);
     result.system = m.system;
@@ -117,8 +120,7 @@ void cost_edges(const Surface& surface, std::span<const Corner> edges, Placement
       EdgeMinimum<Float4> m;
       sum_quadrics(gather_quadrics(qa), gather_quadrics(qb), e, m.sum);
       minimise(e, m);
-      const auto believed = (m.system.d0 > 0) & (m.system.d1 > 0) & (m.system.d2 > 0) &
-                            (m.far_squared <= kFarthestMinimumSquared * m.edge_squared);  // -1 or 0 in every lane
+      const auto believed = believable(m);
       const Float4 least = m.cost > 0 ? m.cost : Float4{};
       std::memcpy(costs + first, &least, sizeof least);
       if ((believed[0] & believed[1] & believed[2] & believed[3]) != 0) [[likely]] continue;

@@ -73,6 +73,7 @@ class QemSimplifier {
   bool find_candidates();
   void run_pass(std::size_t rank);
   void collapse_next();
+  void fetch_vertex_at(Corner c);
   void fetch_region(std::span<const EdgeKey> batch);
   void put_off(EdgeKey key);
   void offer(std::span<const Corner> edges);
@@ -185,8 +186,16 @@ void QemSimplifier::run_pass(std::size_t rank) {
   }
 }
 
+// Inlined by force, as those below: GCC takes a function that only prefetches for one without effect, and drops the
+// call. A vertex may lie on two cache lines.
+[[gnu::always_inline]] inline void QemSimplifier::fetch_vertex_at(Corner c) {
+  const std::uint32_t v = surface_.vertex_at(c);
+  __builtin_prefetch(&surface_.places[v]);
+  __builtin_prefetch(&surface_.vertices[v]);
+  __builtin_prefetch(&surface_.vertices[v].first_corner);
+}
+
 // Asks for the batch's part of the mesh in the order it lies in memory; the batch then goes about in it by cost.
-// Inlined by force: GCC takes a function that only prefetches for one without effect, and drops the call.
 [[gnu::always_inline]] inline void QemSimplifier::fetch_region(std::span<const EdgeKey> batch) {
   std::uint32_t first = surface_.face_count, last = 0;
   for (const EdgeKey key : batch) {
@@ -199,12 +208,7 @@ void QemSimplifier::run_pass(std::size_t rank) {
   for (std::uint32_t face = first; face <= last; ++face) {
     if (surface_.is_dead(face)) continue;
     __builtin_prefetch(&surface_.links[face * 4]);
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = surface_.vertex_at(face * 4 + k);
-      __builtin_prefetch(&surface_.places[v]);
-      __builtin_prefetch(&surface_.vertices[v]);
-      __builtin_prefetch(&surface_.vertices[v].first_corner);
-    }
+    for (std::uint32_t k = 0; k < 3; ++k) fetch_vertex_at(face * 4 + k);
   }
 }
 
@@ -231,7 +235,7 @@ void QemSimplifier::put_off(EdgeKey key) {
   ++outcome_.work.queue_operations;
 }
 
-// What the next edges of the batch will need is asked for while this one is worked on. Inlined by force, as above.
+// What the next edges of the batch will need is asked for while this one is worked on.
 [[gnu::always_inline]] inline void QemSimplifier::fetch_ahead() {
   constexpr std::size_t kFar = 8, kNear = 4;
   if (queue_.run_left() <= kFar) return;
@@ -240,12 +244,8 @@ void QemSimplifier::put_off(EdgeKey key) {
   __builtin_prefetch(&surface_.indices[corner_index(far)]);
   const Corner near = edge_of(queue_.in_run(kNear));
   if ((surface_.links[near] & kRepresentative) == 0) return;
-  for (const Corner c : {near, next_in_face(near)}) {
-    const std::uint32_t v = surface_.vertex_at(c);
-    __builtin_prefetch(&surface_.places[v]);
-    __builtin_prefetch(&surface_.vertices[v]);
-    __builtin_prefetch(&surface_.vertices[v].first_corner);
-  }
+  fetch_vertex_at(near);
+  fetch_vertex_at(next_in_face(near));
 }
 
 /// The cheapest of all edges but the refused ones, as many as fit. False where there is none.
