@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/drawing_data/drawing_data.h"
@@ -102,23 +103,21 @@ void print_summary(const PackOptions& options, const firmware::DrawingData& data
              options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size());
 }
 
-/// Returns the ROM, which is sound.
-std::vector<std::byte> write_rom(const PackOptions& options, const Model& model) {
-  const Progress progress("writing " + options.output);
-  std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
+/// As the firmware will find it in `rom`.
+firmware::DrawingData checked(const std::vector<std::byte>& rom) {
   const auto opened = firmware::DrawingData::open(rom);
   if (!opened.ok())
     throw std::logic_error(
         fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
-  write_file_atomically(options.output, rom);
-  return rom;
+  return *opened;
 }
 
 int pack(const PackOptions& options) {
   const std::vector<TagRule> from_options = option_rules(options), from_sidecars = sidecar_rules(options);
   const std::vector<fs::path> inputs = paths(options.inputs);
-  check_output(options.output, "-o", inputs);
-  check_output(options.output, "-o", paths(options.sidecars));
+  std::vector<fs::path> read = inputs;
+  read.insert(read.end(), options.sidecars.begin(), options.sidecars.end());
+  check_output(options.output, "-o", read);
   if (options.bare) {
     check_bare_can_keep(from_options, ExitCode::kUsage);
     check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
@@ -128,9 +127,13 @@ int pack(const PackOptions& options) {
   apply_tags(model, {from_options, from_sidecars, options.default_level});
   if (options.bare) note_what_bare_loses(model);
 
-  const std::vector<std::byte> rom = write_rom(options, model);
+  std::optional<Progress> writing(std::in_place, "writing " + options.output);
+  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
+  const firmware::DrawingData data = checked(rom);
+  write_file_atomically(options.output, rom);
+  writing.reset();
   print_notes(model);
-  print_summary(options, *firmware::DrawingData::open(rom));
+  print_summary(options, data);
   return exit_status(ExitCode::kOk);
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,8 +24,6 @@ namespace usuzumi::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<const char*, 6> kAssimpExtensions{".obj", ".ply", ".stl", ".off", ".dae", ".ac"};
 
 /// assimp names glTF 1.0 meshes by identifier, with "-0", "-1" … for the primitives of one; people know them by name.
 void label_gltf1(const GltfFile& file, Model& model) {
@@ -128,8 +125,7 @@ void finish(const std::string& file, Model& model) {
 
 bool is_model_file_name(const fs::path& path) {
   const std::string extension = lower_extension(path);
-  return extension == ".gltf" || extension == ".glb" ||
-         std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) != kAssimpExtensions.end();
+  return !extension.empty() && fmt::format("{} ", kModelExtensions).find(extension + ' ') != std::string::npos;
 }
 
 Model load_model(const fs::path& path, const LoadOptions& options) {
