@@ -26,8 +26,13 @@ constexpr std::uint64_t kLooksPerFrame = 64;
 
 [[noreturn]] void fail(const std::string& rom_name, const Status& status) {
   const bool input = status.code == StatusCode::kDataLoss || status.code == StatusCode::kUnsupported;
+  const char* const remedy = input ? "; pack it again"
+                             : status.code == StatusCode::kResourceExhausted
+                                 ? "; choose a larger --board (for VRAM also a smaller --size, for RAM also more "
+                                   "thinning)"
+                                 : "";
   throw Error(input ? ExitCode::kBadInput : ExitCode::kDevice,
-              fmt::format("{}: {} {}", rom_name, status.message, status.where));
+              fmt::format("{}: {} {}{}", rom_name, status.message, status.where, remedy));
 }
 
 double ms_from_ns(std::uint64_t ns) { return static_cast<double>(ns) / 1e6; }
