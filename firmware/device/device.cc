@@ -1,82 +1,80 @@
 #include "firmware/device/device.h"
 
+#include "firmware/device/safe_picture.h"
+
 namespace usuzumi::firmware {
-namespace {
-
-constexpr std::uint32_t kPictureLayer = 0;
-/// Longer than four frames of the slowest mode the display driver makes (23 Hz).
-constexpr std::uint32_t kVerticalBlankTimeoutUs = 200'000;
-/// An interrupt left pending from before costs one wait that ends at once.
-constexpr int kVerticalBlankWaits = 3;
-
-LayerFormat layer_format(command::PixelFormat format) {
-  return format == command::PixelFormat::kRgb565 ? LayerFormat::kRgb565 : LayerFormat::kXrgb8888;
-}
-
-}  // namespace
 
 Status Device::boot(const DeviceConfig& config) {
-  booted_ = showing_ = false;
+  booted_ = display_ready_ = false;
   back_ = 0;
   config_ = config;
+  // The display first, so that whatever fails later can be told by the safe picture.
+  const auto vram = fit_vram(config);
+  if (!vram.ok()) return vram.status();
+  vram_ = *vram;
+  Status status = ports_.display.start(vram_.scanout);
+  if (!status.ok()) return status;
+  display_ready_ = true;
+
   const auto data = DrawingData::open(ports_.rom);
   if (!data.ok()) return data.status();
   data_ = *data;
-
-  const auto vram = plan_vram(ports_.vram_base, ports_.vram_bytes, config.width, config.height, config.pixel_format,
-                              config.depth_format);
-  if (!vram.ok()) return vram.status();
-  vram_ = *vram;
-
   ram_ = Arena(ports_.ram);
   command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_.mesh_max()));
   if (command_words_.empty())
     return {StatusCode::kResourceExhausted, "RAM has no room for the command list; meshes", data_.mesh_max()};
-  Status status = thinning_.begin(data_, ram_);
+  status = thinning_.begin(data_, ram_);
   if (status.ok()) status = engine_.probe();
-  if (status.ok()) status = boot_display();
   booted_ = status.ok();
   return status;
 }
 
-Status Device::boot_display() {
-  Status status = display_.probe();
-  const auto mode = make_display_mode(config_.width, config_.height);
-  if (status.ok()) status = mode.status();
-  if (status.ok()) status = display_.set_mode(*mode);
-  LayerConfig layer;
-  layer.format = layer_format(config_.pixel_format);
-  layer.stride_bytes = vram_.picture_stride_bytes;
-  layer.bank_address[0] = vram_.picture[0];
-  layer.bank_address[1] = vram_.picture[1];
-  layer.width = config_.width;
-  layer.height = config_.height;
-  if (status.ok()) status = display_.configure_layer(kPictureLayer, layer);
-  if (status.ok()) status = display_.show_layer(kPictureLayer, true);
-  display_.enable_picture_signature(true);
-  display_.enable_vertical_blank_interrupt(true);
-  return status;
+Result<VramLayout> Device::fit_vram(const DeviceConfig& config) {
+  struct Formats {
+    command::PixelFormat pixel;
+    command::DepthFormat depth;
+  };
+  const bool depth24 = config.depth_format == command::DepthFormat::kUnorm24;
+  const command::DepthFormat smaller = depth24 ? command::DepthFormat::kUnorm16 : config.depth_format;
+  const Formats choices[] = {{config.pixel_format, config.depth_format},
+                             {config.pixel_format, smaller},
+                             {command::PixelFormat::kRgb565, smaller}};
+  Result<VramLayout> first = VramLayout{};
+  for (const Formats& f : choices) {
+    Scanout wanted{config.width, config.height, f.pixel, 0, {}};
+    wanted.stride_bytes = ports_.display.stride_bytes(config.width, config.height, f.pixel);
+    const Result<VramLayout> layout =
+        wanted.stride_bytes > 0
+            ? plan_vram(ports_.vram_base, ports_.vram_bytes, wanted, f.depth)
+            : Status{StatusCode::kUnsupported, "display: has no such picture format; width", config.width};
+    if (layout.ok()) return layout;
+    if (first.ok()) first = layout.status();  // what was asked for is what the answer is about
+  }
+  return first;
 }
 
 Status Device::draw_frame(const FrameRequest& request, FrameReport& report) {
+  const Status status = draw_picture(request, report);
+  return status.ok() ? show_picture(report) : status;
+}
+
+Status Device::draw_picture(const FrameRequest& request, FrameReport& report) {
   report = {};
-  if (!booted_) return {StatusCode::kFailedPrecondition, "draw_frame before a successful boot", 0};
+  if (!booted_) return {StatusCode::kFailedPrecondition, "draw_picture before a successful boot", 0};
   const View view{request.model_to_clip, config_.width, config_.height};
   const std::uint64_t begin = ports_.clock.now_ns();
   Status status = thinning_.update(request.thinning, view, ports_.clock, report.thinning);
   const std::uint64_t thinned = ports_.clock.now_ns();
   report.thin_ns = thinned - begin;
   if (status.ok()) status = draw_list(view, request.lighting, report);
-  const std::uint64_t drawn = ports_.clock.now_ns();
-  report.draw_ns = drawn - thinned;
-  if (status.ok()) status = show_picture(report);
-  report.wait_ns = ports_.clock.now_ns() - drawn;
+  report.draw_ns = ports_.clock.now_ns() - thinned;
   return status;
 }
 
 Status Device::draw_list(const View& view, const Lighting& lighting, FrameReport& report) {
-  const FrameTarget target{vram_.picture[back_], vram_.picture_stride_bytes, config_.pixel_format,
-                           vram_.depth,          vram_.depth_stride_bytes,   config_.depth_format};
+  const Scanout& scanout = vram_.scanout;
+  const FrameTarget target{scanout.picture[back_], scanout.stride_bytes,     scanout.format,
+                           vram_.depth,            vram_.depth_stride_bytes, vram_.depth_format};
   const auto list = write_scene(thinning_.copy(), view, lighting, target, ports_.bus, command_words_);
   if (!list.ok()) return list.status();
   ports_.clock.charge(CpuWork::kCommandWritten, list->size());
@@ -87,26 +85,26 @@ Status Device::draw_list(const View& view, const Lighting& lighting, FrameReport
   return status;
 }
 
-/// Shows the picture just drawn: the first by switching the display on, each later one by a flip at vertical blank.
 Status Device::show_picture(FrameReport& report) {
-  if (!showing_) {
-    Status status = display_.enable();
-    if (!status.ok()) return status;
-    showing_ = true;
-  } else {
-    Status status = display_.request_flip(kPictureLayer, back_);
-    if (!status.ok()) return status;
-    for (int i = 0; i < kVerticalBlankWaits && display_.flip_pending(kPictureLayer); ++i) {
-      display_.clear_vertical_blank();
-      status = ports_.interrupts.wait(Interrupt::kVerticalBlank, kVerticalBlankTimeoutUs);
-      if (!status.ok()) return status;
-    }
-    if (display_.flip_pending(kPictureLayer))
-      return {StatusCode::kDeadlineExceeded, "display: no vertical blank took the flip", 0};
-  }
-  report.shown_in_frame = display_.frame_count() + 1;
-  back_ ^= 1;
-  return ok_status();
+  const std::uint64_t begin = ports_.clock.now_ns();
+  const Status status = ports_.display.show(back_);
+  report.wait_ns = ports_.clock.now_ns() - begin;
+  if (status.ok()) back_ ^= 1;
+  return status;
+}
+
+Status Device::complete_picture() { return ports_.display.show(back_ ^ 1); }
+
+Status Device::show_safe_picture() {
+  const Scanout& scanout = vram_.scanout;
+  const std::span<std::byte> pixels =
+      ports_.memory.write_window(scanout.picture[back_], std::size_t{scanout.stride_bytes} * scanout.height);
+  if (!display_ready_ || pixels.data() == nullptr)
+    return {StatusCode::kFailedPrecondition, "no display to show the safe picture on", 0};
+  paint_safe_picture(scanout, pixels);
+  const Status status = ports_.display.show_part(back_, safe_picture_part(scanout.width, scanout.height));
+  if (status.ok()) back_ ^= 1;
+  return status;
 }
 
 std::uint64_t Device::ram_peak_bytes() const {

@@ -13,7 +13,7 @@
 #include "hal/bus.h"
 #include "hal/clock.h"
 #include "hal/command_list.h"
-#include "hal/drivers/display_driver.h"
+#include "hal/display.h"
 #include "hal/drivers/engine_driver.h"
 #include "hal/status.h"
 
@@ -21,15 +21,16 @@ namespace usuzumi::firmware {
 
 /// What the board gives the firmware. Everything outlives the Device.
 struct DevicePorts {
-  RegisterIo& registers;
+  RegisterIo& registers;  // of the 3D engine
   BusAddress engine_base;
-  BusAddress display_base;
   InterruptWaiter& interrupts;
+  Display& display;
   Clock& clock;
+  BusMemory& memory;  // what engine and display fetch from
   const AddressTranslation& bus;
   std::span<const std::byte> rom;  // drawing data
   std::span<std::byte> ram;        // work area
-  BusAddress vram_base;
+  BusAddress vram_base;            // a multiple of Display::kPictureAlignment
   std::uint32_t vram_bytes;
 };
 
@@ -53,48 +54,58 @@ struct FrameReport {
   std::uint64_t thin_ns = 0;            // deciding and thinning, by the device's clock
   std::uint64_t draw_ns = 0;            // writing the command list and executing it
   std::uint64_t wait_ns = 0;            // for the vertical blank that shows the picture
-  std::uint32_t shown_in_frame = 0;     // the display's frame count once this picture has been sent for the first time
 };
 
 class Device {
  public:
   explicit Device(const DevicePorts& ports)
-      : ports_(ports),
-        engine_(ports.registers, ports.engine_base, ports.interrupts),
-        display_(ports.registers, ports.display_base) {}
+      : ports_(ports), engine_(ports.registers, ports.engine_base, ports.interrupts) {}
 
   /// Checks the drawing data, carves RAM and VRAM and brings up engine and display. The panel stays dark until the
-  /// first frame is drawn.
+  /// first picture is shown. Where VRAM is short, depth is made 16 bits deep, then pixels 16 bits wide: vram() says
+  /// what it came to.
   Status boot(const DeviceConfig& config);
 
-  /// Thins what has changed, draws into the picture that is not shown, and returns once it is.
-  /// kResourceExhausted: a mesh that must be drawn has no room in RAM; nothing was drawn, the old picture stays.
+  /// draw_picture(), then show_picture().
   Status draw_frame(const FrameRequest& request, FrameReport& report);
+
+  /// Thins what has changed and draws into the picture that is not shown.
+  /// kResourceExhausted: a mesh that must be drawn has no room in RAM; nothing was drawn.
+  Status draw_picture(const FrameRequest& request, FrameReport& report);
+  /// Shows the picture just drawn; returns once it is being sent.
+  Status show_picture(FrameReport& report);
+  /// Waits until the shown picture has been sent whole.
+  Status complete_picture();
+  /// Paints the safe picture (safe_picture.h) over the one that is not shown, and shows it. Needs no engine and no
+  /// drawing data: it works after a boot() that failed for their sake, too.
+  Status show_safe_picture();
+  /// Nothing but black is sent when this returns. What is in RAM and VRAM stays.
+  Status blank() { return ports_.display.blank(); }
 
   /// After boot().
   const DrawingData& drawing_data() const { return data_; }
   const Thinning& thinning() const { return thinning_; }
-  DisplayDriver& display() { return display_; }
   const VramLayout& vram() const { return vram_; }
+  /// The picture shown last: 0 or 1.
+  std::uint32_t shown_picture() const { return back_ ^ 1; }
   /// Most bytes of RAM in use so far: command list, tables and copy with its working space.
   std::uint64_t ram_peak_bytes() const;
 
  private:
-  Status boot_display();
+  /// The layout, in the formats asked for or in the next smaller ones that fit.
+  Result<VramLayout> fit_vram(const DeviceConfig& config);
   Status draw_list(const View& view, const Lighting& lighting, FrameReport& report);
-  Status show_picture(FrameReport& report);
 
   DevicePorts ports_;
   DeviceConfig config_;
   EngineDriver engine_;
-  DisplayDriver display_;
   Arena ram_;
   DrawingData data_;
   Thinning thinning_;
   VramLayout vram_;
   std::span<std::uint32_t> command_words_;
   std::uint32_t back_ = 0;  // the picture that is drawn next
-  bool showing_ = false;
+  bool display_ready_ = false;
   bool booted_ = false;
 };
 

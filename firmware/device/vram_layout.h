@@ -5,20 +5,22 @@
 
 #include "hal/bus.h"
 #include "hal/command_list.h"
+#include "hal/display.h"
 #include "hal/status.h"
 
 namespace usuzumi::firmware {
 
 struct VramLayout {
-  BusAddress picture[2] = {};  // drawn and shown in turn
+  Scanout scanout;  // the pictures are drawn and shown in turn
   BusAddress depth = 0;
-  std::uint32_t picture_stride_bytes = 0;  // both strides are multiples of 64, the display controller's unit
-  std::uint32_t depth_stride_bytes = 0;
+  command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
+  std::uint32_t depth_stride_bytes = 0;  // a multiple of 64
   std::uint32_t used_bytes = 0;
 };
 
-/// kResourceExhausted with the bytes needed in `where`.
-Result<VramLayout> plan_vram(BusAddress base, std::uint32_t bytes, std::uint32_t width, std::uint32_t height,
-                             command::PixelFormat format, command::DepthFormat depth);
+/// Places the pictures, each at a multiple of Display::kPictureAlignment, and the depth. `width`, `height`, `format` and
+/// `stride_bytes` of `wanted` are the caller's. `base` is a multiple of kPictureAlignment. kResourceExhausted with the
+/// bytes needed in `where`.
+Result<VramLayout> plan_vram(BusAddress base, std::uint32_t bytes, const Scanout& wanted, command::DepthFormat depth);
 
 }  // namespace usuzumi::firmware

@@ -43,49 +43,17 @@ void HostPages::make_read_only() {
     throw Error(ExitCode::kDevice, fmt::format("cannot make the ROM read-only: {}", std::strerror(errno)));
 }
 
-MemoryMap::MemoryMap(std::span<const std::byte> rom, std::size_t ram_bytes, std::size_t vram_bytes)
-    : rom_(checked("ROM", ExitCode::kBadInput, rom.size(), kRomBytesMax)),
-      ram_(checked("RAM", ExitCode::kDevice, ram_bytes, kRamBytesMax)),
-      vram_(checked("VRAM", ExitCode::kDevice, vram_bytes, kVramBytesMax)) {
-  if (!rom.empty()) std::memcpy(rom_.bytes().data(), rom.data(), rom.size());
-  rom_.make_read_only();
+MemoryMap::MemoryMap(std::span<const std::byte> rom_image, std::size_t ram_bytes, std::size_t vram_bytes)
+    : MachineMemories{HostPages(checked("ROM", ExitCode::kBadInput, rom_image.size(), kRomBytesMax)),
+                      HostPages(checked("RAM", ExitCode::kDevice, ram_bytes, kRamBytesMax)),
+                      HostPages(checked("VRAM", ExitCode::kDevice, vram_bytes, kVramBytesMax))},
+      MemoryRegions({{{kRamBase, ram(), true},
+                      {kRomBase, MachineMemories::rom.bytes(), false},
+                      {kVramBase, vram(), true}}}) {
+  if (!rom_image.empty()) std::memcpy(MachineMemories::rom.bytes().data(), rom_image.data(), rom_image.size());
+  MachineMemories::rom.make_read_only();
 }
 
 std::uint32_t MemoryMap::rom_crc32() const { return crc32(kCrc32Start, rom()); }
-
-std::span<std::byte> MemoryMap::resolve(BusAddress address, std::size_t size, bool for_writing) const {
-  struct Place {
-    BusAddress base;
-    std::span<std::byte> bytes;
-    bool writable;
-  };
-  const Place places[] = {
-      {kRomBase, rom_.bytes(), false}, {kRamBase, ram_.bytes(), true}, {kVramBase, vram_.bytes(), true}};
-  for (const Place& place : places) {
-    if (address < place.base || address - place.base >= place.bytes.size()) continue;
-    const std::size_t offset = address - place.base;
-    if (size > place.bytes.size() - offset || (for_writing && !place.writable)) return {};
-    return place.bytes.subspan(offset, size);
-  }
-  return {};
-}
-
-std::span<const std::byte> MemoryMap::do_read_window(BusAddress address, std::size_t size) const {
-  return resolve(address, size, false);
-}
-std::span<std::byte> MemoryMap::do_write_window(BusAddress address, std::size_t size) {
-  return resolve(address, size, true);
-}
-
-BusAddress MemoryMap::do_bus_address(const void* pointer) const {
-  const auto p = reinterpret_cast<std::uintptr_t>(pointer);
-  const auto within = [p](std::span<const std::byte> bytes, BusAddress base) -> BusAddress {
-    const auto first = reinterpret_cast<std::uintptr_t>(bytes.data());
-    return p >= first && p - first < bytes.size() ? base + static_cast<BusAddress>(p - first) : 0;
-  };
-  if (const BusAddress a = within(ram(), kRamBase); a != 0) return a;
-  if (const BusAddress a = within(rom(), kRomBase); a != 0) return a;
-  return within(vram(), kVramBase);
-}
 
 }  // namespace usuzumi::sim

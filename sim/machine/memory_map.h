@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "hal/bus.h"
+#include "hal/memory_regions.h"
 
 namespace usuzumi::sim {
 
@@ -26,34 +26,27 @@ class HostPages {
   std::size_t reserved_ = 0;  // whole pages
 };
 
-class MemoryMap : public BusMemory, public AddressTranslation {
+/// The pages of the three memories, made before the bus over them.
+struct MachineMemories {
+  HostPages rom, ram, vram;
+};
+
+class MemoryMap : private MachineMemories, public MemoryRegions<3> {
  public:
   /// Copies `rom`. Throws Error: kBadInput when the ROM, kDevice when RAM or VRAM exceed their place in the map.
   MemoryMap(std::span<const std::byte> rom, std::size_t ram_bytes, std::size_t vram_bytes);
 
   /// Where the CPU sees them. Writing to ROM through a cast ends the process with a fault, as the stray write it is.
-  std::span<const std::byte> rom() const { return rom_.bytes(); }
-  std::span<std::byte> ram() const { return ram_.bytes(); }
+  std::span<const std::byte> rom() const { return MachineMemories::rom.bytes(); }
+  std::span<std::byte> ram() const { return MachineMemories::ram.bytes(); }
   /// For host tools and tests; the firmware leaves VRAM to the engine.
-  std::span<std::byte> vram() const { return vram_.bytes(); }
+  std::span<std::byte> vram() const { return MachineMemories::vram.bytes(); }
 
   /// Of the ROM as it is now: equal before and after a run.
   std::uint32_t rom_crc32() const;
 
  protected:
   ~MemoryMap() = default;
-
- private:
-  /// The bytes at `address` when all of them lie in one memory.
-  std::span<std::byte> resolve(BusAddress address, std::size_t size, bool for_writing) const;
-
-  std::span<const std::byte> do_read_window(BusAddress address, std::size_t size) const final;
-  std::span<std::byte> do_write_window(BusAddress address, std::size_t size) final;
-  BusAddress do_bus_address(const void* pointer) const final;
-
-  HostPages rom_;
-  HostPages ram_;
-  HostPages vram_;
 };
 
 }  // namespace usuzumi::sim

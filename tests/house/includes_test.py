@@ -8,11 +8,11 @@ import sys
 HAL = "hal/include/"
 # What hardware and software share: the bus, the command list, the registers, and what these are made of.
 HAL_BASE = [f"hal/include/hal/{name}" for name in
-            ("arena.h", "bus.h", "command_list.h", "crc32.h", "status.h", "vec.h", "registers/")]
+            ("arena.h", "bus.h", "command_list.h", "crc32.h", "memory_regions.h", "status.h", "vec.h", "registers/")]
 # folder -> what its files may include, by the first words of its path. The longest folder that fits rules.
 HOSTED = "hosted"  # the whole C++ library and other libraries
 ALLOWED = {
-    "hal/include": HAL_BASE + [HAL + "hal/clock.h"],
+    "hal/include": HAL_BASE + [HAL + "hal/clock.h", HAL + "hal/display.h", HAL + "hal/pins.h"],
     "hal/include/hal/drivers": [HAL],
     "hal": ["hal/"],
     "firmware": [HAL, "firmware/"],

@@ -118,34 +118,41 @@ TEST(SceneCommands, ACopyOutsideTheBusIsRefused) {
             StatusCode::kFailedPrecondition);
 }
 
+Scanout picture_of(std::uint32_t width, std::uint32_t height, command::PixelFormat format) {
+  return {width, height, format, default_stride_bytes(width, format), {}};
+}
+
 TEST(VramLayout, HoldsTwoPicturesAndDepthOnTheSmallBoard) {
-  const auto layout =
-      firmware::plan_vram(0x80000000, 1 << 20, 480, 272, command::PixelFormat::kRgb565, command::DepthFormat::kUnorm16);
+  const auto layout = firmware::plan_vram(0x80000000, 1 << 20, picture_of(480, 272, command::PixelFormat::kRgb565),
+                                          command::DepthFormat::kUnorm16);
   ASSERT_TRUE(layout.ok());
-  EXPECT_EQ(layout->picture_stride_bytes, 960u);  // 15 units of 64
-  EXPECT_EQ(layout->picture[0], 0x80000000u);
-  EXPECT_EQ(layout->picture[1], 0x80000000u + 960 * 272);
-  EXPECT_EQ(layout->depth, 0x80000000u + 2 * 960 * 272);
-  EXPECT_EQ(layout->used_bytes, 3u * 960 * 272);
+  EXPECT_EQ(layout->scanout.stride_bytes, 960u);  // 15 units of 64
+  EXPECT_EQ(layout->scanout.picture[0], 0x80000000u);
+  EXPECT_EQ(layout->scanout.picture[1], 0x80000000u + 64 * 4096);  // 960 * 272 bytes are 63.75 pages
+  EXPECT_EQ(layout->depth, 0x80000000u + 2 * 64 * 4096);
+  EXPECT_EQ(layout->used_bytes, 2u * 64 * 4096 + 960 * 272);
 }
 
 TEST(VramLayout, RoundsRowsUpToTheDisplaysUnit) {
-  const auto layout =
-      firmware::plan_vram(0, 1 << 20, 100, 10, command::PixelFormat::kXrgb8888, command::DepthFormat::kNone);
+  EXPECT_EQ(default_stride_bytes(100, command::PixelFormat::kXrgb8888), 448u);  // 400 bytes are six and a quarter
+  const auto layout = firmware::plan_vram(0x1000, 1 << 20, picture_of(100, 10, command::PixelFormat::kXrgb8888),
+                                          command::DepthFormat::kUnorm16);
   ASSERT_TRUE(layout.ok());
-  EXPECT_EQ(layout->picture_stride_bytes, 448u);  // 400 bytes are six and a quarter units
-  EXPECT_EQ(layout->used_bytes, 2u * 448 * 10);
+  EXPECT_EQ(layout->depth_stride_bytes, 256u);  // 200 bytes are three and an eighth
+  EXPECT_EQ(layout->used_bytes, 2u * 2 * 4096 + 256 * 10);
 }
 
 TEST(VramLayout, SaysHowManyBytesAreMissing) {
-  const auto layout =
-      firmware::plan_vram(0, 1 << 20, 480, 272, command::PixelFormat::kXrgb8888, command::DepthFormat::kUnorm24);
+  const auto layout = firmware::plan_vram(0x1000, 1 << 20, picture_of(480, 272, command::PixelFormat::kXrgb8888),
+                                          command::DepthFormat::kUnorm24);
   EXPECT_EQ(layout.status().code, StatusCode::kResourceExhausted);
-  EXPECT_EQ(layout.status().where, 3u * 1920 * 272);
-  EXPECT_FALSE(
-      firmware::plan_vram(0, 1 << 20, 0, 272, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
-  EXPECT_FALSE(
-      firmware::plan_vram(0, 0xFFFFFFFF, 4097, 1, command::PixelFormat::kRgb565, command::DepthFormat::kNone).ok());
+  EXPECT_EQ(layout.status().where, 2u * 128 * 4096 + 1920 * 272);  // 1920 * 272 bytes are 127.5 pages
+  for (const auto [width, height] : {std::pair{0u, 272u}, {4097u, 1u}})
+    EXPECT_EQ(firmware::plan_vram(0x1000, 0xFFFFFFFF, picture_of(width, height, command::PixelFormat::kRgb565),
+                                  command::DepthFormat::kNone)
+                  .status()
+                  .code,
+              StatusCode::kInvalidArgument);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "hal/bus.h"
+#include "hal/display.h"
 #include "hal/drivers/display_mode.h"
 #include "hal/registers/display.h"
 #include "hal/status.h"
@@ -28,10 +29,6 @@ struct LayerConfig {
   bool per_pixel_alpha = false;  // needs kArgb8888
   bool colour_key_enabled = false;
   std::uint32_t colour_key_rgb = 0;  // 0x00RRGGBB
-};
-
-struct PictureRectangle {
-  std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
 /// CRCs of the last complete picture.
