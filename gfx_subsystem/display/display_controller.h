@@ -53,6 +53,9 @@ class DisplayController {
   bool fault_asserted() const { return (pending() & ~display_registers::kIntVerticalBlank) != 0; }
   bool interrupt_asserted() const { return pending() != 0; }
 
+  /// Fault injection: what fetching gets from the next line on.
+  void set_bus(std::uint64_t bytes_per_second) { fifo_.bus_bytes_per_second = bytes_per_second; }
+
   /// For the host, not on the bus.
   bool running() const { return running_; }
   const ScanGeometry& geometry() const { return geometry_; }

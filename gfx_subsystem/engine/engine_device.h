@@ -39,6 +39,9 @@ class EngineDevice {
   std::uint64_t next_event() const { return busy_ ? done_time_ : kNever; }
   bool interrupt_asserted() const;
 
+  /// Fault injection, as Config::hangs, from the next doorbell on.
+  void inject_hang(bool hangs) { config_.hangs = hangs; }
+
   bool busy() const { return busy_; }
   /// Of the running list, or of the last one: doorbell and end. done_time is kNever for a list that hangs.
   std::uint64_t start_time() const { return start_time_; }

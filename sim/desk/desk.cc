@@ -8,8 +8,10 @@
 
 #include "gfx_subsystem/engine_osmesa/osmesa_engine.h"
 #include "gfx_subsystem/engine_soft/soft_engine.h"
+#include "hal/drivers/controller_display.h"
 #include "hal/drivers/display_mode.h"
 #include "sim/common/error.h"
+#include "sim/desk/scripted_pins.h"
 #include "sim/machine/host_stopwatch.h"
 #include "sim/panel/panel.h"
 #include "sim/parallel/thread_runner.h"
@@ -21,6 +23,9 @@ namespace {
 constexpr std::size_t kEngineWorkBytes = std::size_t{256} << 20;
 /// The panel has the picture within two frames of the flip; more means that its signal broke down.
 constexpr std::uint64_t kFramesToWait = 4;
+/// What "slow-bus" leaves of the display's bandwidth: too little for a whole picture at any size, enough for the safe
+/// one.
+constexpr double kSlowBus = 64;
 /// Steps of virtual time in which the desk looks at the panel, per frame.
 constexpr std::uint64_t kLooksPerFrame = 64;
 
@@ -48,8 +53,23 @@ struct Desk::Parts {
         soft({.work_memory = work.bytes(), .runner = desk_config.threads > 1 ? &runner : nullptr}),
         osmesa(desk_config.engine == EngineKind::kOsmesa ? std::make_unique<gfx::OsmesaEngine>() : nullptr),
         machine(desk_config.board, rom_bytes, engine(), panel, desk_config.faults),
-        device({machine, kEngineBase, kDisplayBase, machine, machine, machine, machine.rom(), machine.ram(), kVramBase,
-                static_cast<std::uint32_t>(machine.vram().size())}) {}
+        display(machine, kDisplayBase, machine),
+        pins(machine, desk_config.pins ? &*desk_config.pins : nullptr),
+        instrument({.registers = machine,
+                    .engine_base = kEngineBase,
+                    .interrupts = machine,
+                    .display = display,
+                    .clock = machine,
+                    .memory = machine,
+                    .bus = machine,
+                    .rom = machine.rom(),
+                    .ram = machine.ram(),
+                    .vram_base = kVramBase,
+                    .vram_bytes = static_cast<std::uint32_t>(machine.vram().size())},
+                   pins) {}
+
+  void inject_faults(std::uint32_t frame);
+  void await_panel(std::uint32_t frame);
 
   gfx::Engine& engine() {
     if (osmesa == nullptr) return soft;
@@ -65,9 +85,13 @@ struct Desk::Parts {
   std::unique_ptr<gfx::OsmesaEngine> osmesa;
   Panel panel;
   Machine machine;
-  firmware::Device device;
+  ControllerDisplay display;
+  ScriptedPins pins;
+  firmware::Instrument instrument;
   DisplayMode mode;
   std::uint32_t frames = 0;
+  std::size_t next_fault = 0;
+  Image dark;  // what a panel shows that has never been sent a picture
 };
 
 Desk::Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::string& rom_name) {
@@ -77,58 +101,89 @@ Desk::Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::
     complete.height = complete.board.height;
   }
   parts_ = std::make_unique<Parts>(complete, rom, rom_name);
-  firmware::DeviceConfig device;
-  device.width = complete.width;
-  device.height = complete.height;
-  device.pixel_format = complete.board.pixel_format;
-  device.depth_format = complete.board.depth_format;
-  const Status status = parts_->device.boot(device);
+  firmware::InstrumentConfig instrument;
+  instrument.device.width = complete.width;
+  instrument.device.height = complete.height;
+  instrument.device.pixel_format = complete.board.pixel_format;
+  instrument.device.depth_format = complete.board.depth_format;
+  parts_->pins.begin_frame(0);
+  const Status status = parts_->instrument.boot(instrument);
   if (!status.ok()) fail(rom_name, status);
   parts_->mode = *make_display_mode(complete.width, complete.height);
+  parts_->dark = Image(complete.width, complete.height);
 }
 
 Desk::~Desk() = default;
 
 std::uint32_t Desk::width() const { return parts_->config.width; }
 std::uint32_t Desk::height() const { return parts_->config.height; }
-const firmware::DrawingData& Desk::drawing_data() const { return parts_->device.drawing_data(); }
+const firmware::DrawingData& Desk::drawing_data() const { return device().drawing_data(); }
 const Machine& Desk::machine() const { return parts_->machine; }
-const firmware::Device& Desk::device() const { return parts_->device; }
+const firmware::Device& Desk::device() const { return parts_->instrument.device(); }
+
+/// Faults are in order of frames.
+void Desk::Parts::inject_faults(std::uint32_t frame) {
+  Faults& faults = config.faults;
+  const std::size_t before = next_fault;
+  for (; next_fault < config.fault_script.size() && config.fault_script[next_fault].frame <= frame; ++next_fault) {
+    const FrameEvent& event = config.fault_script[next_fault];
+    if (event.name == "engine-hang") faults.engine_hangs = event.level;
+    else faults.bus_slowdown = event.level ? kSlowBus : 1;
+  }
+  if (next_fault != before) machine.inject(faults);
+}
+
+/// Until the panel has been sent a picture whole that began after now.
+void Desk::Parts::await_panel(std::uint32_t frame) {
+  if (!machine.display().running()) return;
+  const std::uint32_t shown_in_frame = display.driver().frame_count() + 1;
+  const std::uint64_t flipped = machine.now_cycles();
+  const std::uint64_t step = mode.frame_ticks() / kLooksPerFrame + 1;
+  while (panel.frames_completed() < shown_in_frame) {
+    if (machine.now_cycles() - flipped > kFramesToWait * mode.frame_ticks())
+      throw Error(ExitCode::kDevice, fmt::format("frame {}: the panel got no stable picture", frame));
+    machine.idle(step);
+  }
+}
 
 Desk::Shown Desk::draw(const firmware::FrameRequest& request) {
   Parts& p = *parts_;
   const HostStopwatch stopwatch;
   FrameRecord record;
   record.frame = p.frames++;
-  const Status status = p.device.draw_frame(request, record.firmware);
-  if (!status.ok()) fail(p.rom_name, status);
-
-  const std::uint64_t flipped = p.machine.now_cycles();
-  const std::uint64_t step = p.mode.frame_ticks() / kLooksPerFrame + 1;
-  while (p.panel.frames_completed() < record.firmware.shown_in_frame) {
-    if (p.machine.now_cycles() - flipped > kFramesToWait * p.mode.frame_ticks())
-      throw Error(ExitCode::kDevice, fmt::format("frame {}: the panel got no stable picture", record.frame));
-    p.machine.idle(step);
+  p.pins.begin_frame(record.frame);
+  p.inject_faults(record.frame);
+  const firmware::StepReport step = p.instrument.step(request);
+  if (!step.fault.ok()) {
+    if (!p.config.watches_faults()) fail(p.rom_name, step.fault);
+    record.fault = fmt::format("{} {}", step.fault.message, step.fault.where);
   }
-  record.crc32 = p.device.display().signature().picture_crc;
-  record.panel_crc32 = p.panel.last_frame().crc32();
+  p.await_panel(record.frame);
+  record.firmware = step.frame;
+  record.shown = step.shown;
+  record.mode = step.mode;
+  record.backlight = p.pins.backlight();
+  record.wake_ms = ms_from_ns(step.wake_ns);
+  const bool sent = p.panel.frames_completed() > 0;
+  const Image& picture = sent ? p.panel.last_frame().picture : p.dark;
+  record.panel_crc32 = picture_crc32(picture);
+  record.crc32 = sent ? p.display.driver().signature().picture_crc : record.panel_crc32;
   record.thin_ms = ms_from_ns(record.firmware.thin_ns);
   record.draw_ms = ms_from_ns(record.firmware.draw_ns);
   record.scanout_ms = static_cast<double>(p.mode.frame_ticks()) * 1e3 / static_cast<double>(kMasterHz);
   record.host_ms = stopwatch.elapsed_ms();
-  return {record, p.panel.last_frame().picture};
+  return {record, picture};
 }
 
 Image Desk::picture_in_vram() const {
   const Parts& p = *parts_;
-  const firmware::VramLayout& layout = p.device.vram();
-  const std::uint32_t shown = p.frames % 2 == 1 ? 0 : 1;  // the first frame is drawn into picture 0
-  const std::byte* base = p.machine.vram().data() + (layout.picture[shown] - kVramBase);
+  const Scanout& scanout = vram().scanout;
+  const std::byte* base = p.machine.vram().data() + (scanout.picture[device().shown_picture()] - kVramBase);
   Image image(width(), height());
   for (std::uint32_t y = 0; y < image.height; ++y) {
-    const std::byte* row = base + std::size_t{y} * layout.picture_stride_bytes;
+    const std::byte* row = base + std::size_t{y} * scanout.stride_bytes;
     for (std::uint32_t x = 0; x < image.width; ++x) {
-      if (p.config.board.pixel_format == command::PixelFormat::kXrgb8888) {
+      if (scanout.format == command::PixelFormat::kXrgb8888) {
         std::uint32_t v;
         std::memcpy(&v, row + 4 * std::size_t{x}, 4);
         image.at(x, y) = v & 0xFFFFFF;
@@ -144,7 +199,7 @@ Image Desk::picture_in_vram() const {
 }
 
 Desk::Memory Desk::memory() const {
-  return {parts_->device.ram_peak_bytes(), parts_->device.vram().used_bytes, parts_->machine.rom().size()};
+  return {device().ram_peak_bytes(), vram().used_bytes, parts_->machine.rom().size()};
 }
 
 }  // namespace usuzumi::sim

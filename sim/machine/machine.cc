@@ -8,10 +8,14 @@
 namespace usuzumi::sim {
 namespace {
 
-gfx::DisplayConfig display_config(const BoardDescription& board, const Faults& faults) {
+std::uint64_t display_bus(const BoardDescription& board, const Faults& faults) {
   const double bus = static_cast<double>(board.bus_bytes_per_second) / std::max(1.0, faults.bus_slowdown);
+  return static_cast<std::uint64_t>(bus);
+}
+
+gfx::DisplayConfig display_config(const BoardDescription& board, const Faults& faults) {
   return {.reference_hz = kMasterHz,
-          .bus_bytes_per_second = static_cast<std::uint64_t>(bus),
+          .bus_bytes_per_second = display_bus(board, faults),
           .fifo_bytes = board.display_fifo_bytes};
 }
 
@@ -26,6 +30,11 @@ Machine::Machine(const BoardDescription& board, std::span<const std::byte> rom, 
       display_(*this, video, display_config(board, faults), &display_log_),
       interrupts_(&interrupt_log_) {
   poll_devices();
+}
+
+void Machine::inject(const Faults& faults) {
+  engine_.inject_hang(faults.engine_hangs);
+  display_.set_bus(display_bus(board_, faults));
 }
 
 void Machine::poll_devices() {

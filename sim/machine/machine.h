@@ -31,6 +31,8 @@ class Machine final : public MemoryMap, public RegisterIo, public Clock, public 
           const Faults& faults = {});
 
   const BoardDescription& board() const { return board_; }
+  /// From now on; a list that runs already ends as it would have.
+  void inject(const Faults& faults);
 
   /// Virtual time in cycles of kMasterHz.
   std::uint64_t now_cycles() const { return now_; }

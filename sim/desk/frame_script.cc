@@ -1,0 +1,54 @@
+#include "sim/desk/frame_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "sim/common/error.h"
+
+namespace usuzumi::sim {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// False where `text` is no event at all.
+bool read_event(std::string_view text, FrameEvent& event) {
+  const std::size_t colon = text.find(':'), equals = text.find('=');
+  if (colon == std::string_view::npos || equals == std::string_view::npos || equals < colon) return false;
+  const std::string_view frame = text.substr(0, colon), level = text.substr(equals + 1);
+  const auto [end, error] = std::from_chars(frame.data(), frame.data() + frame.size(), event.frame);
+  event.name = text.substr(colon + 1, equals - colon - 1);
+  event.level = level == "1";
+  return error == std::errc{} && end == frame.data() + frame.size() && (level == "0" || level == "1");
+}
+
+}  // namespace
+
+std::vector<FrameEvent> parse_frame_script(const std::string& option, std::string_view text,
+                                           std::span<const std::string_view> names) {
+  std::vector<FrameEvent> events;
+  for (const std::string_view part : split(text, ',')) {
+    FrameEvent event;
+    const bool read = read_event(part, event);
+    if (read && std::find(names.begin(), names.end(), event.name) != names.end()) {
+      events.push_back(event);
+      continue;
+    }
+    throw Error(ExitCode::kUsage, fmt::format("{} {}: '{}' must be FRAME:NAME=0 or =1, e.g. {}:{}=1, with NAME one of {}",
+                                              option, text, part, 120, names.front(), fmt::join(names, ", ")));
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const FrameEvent& a, const FrameEvent& b) { return a.frame < b.frame; });
+  return events;
+}
+
+}  // namespace usuzumi::sim
