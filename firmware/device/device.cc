@@ -1,5 +1,7 @@
 #include "firmware/device/device.h"
 
+#include <cstring>
+
 #include "firmware/device/safe_picture.h"
 
 namespace usuzumi::firmware {
@@ -95,16 +97,30 @@ Status Device::show_picture(FrameReport& report) {
 
 Status Device::complete_picture() { return ports_.display.show(back_ ^ 1); }
 
-Status Device::show_safe_picture() {
-  const Scanout& scanout = vram_.scanout;
-  const std::span<std::byte> pixels =
-      ports_.memory.write_window(scanout.picture[back_], std::size_t{scanout.stride_bytes} * scanout.height);
-  if (!display_ready_ || pixels.data() == nullptr)
-    return {StatusCode::kFailedPrecondition, "no display to show the safe picture on", 0};
-  paint_safe_picture(scanout, pixels);
-  const Status status = ports_.display.show_part(back_, safe_picture_part(scanout.width, scanout.height));
+std::span<std::byte> Device::back_pixels() {
+  if (!display_ready_) return {};
+  return ports_.memory.write_window(vram_.scanout.picture[back_],
+                                    std::size_t{vram_.scanout.stride_bytes} * vram_.scanout.height);
+}
+
+Status Device::show_painted(const PictureRectangle& part) {
+  const Status status = ports_.display.show_part(back_, part);
   if (status.ok()) back_ ^= 1;
   return status;
+}
+
+Status Device::show_safe_picture() {
+  const std::span<std::byte> pixels = back_pixels();
+  if (pixels.empty()) return {StatusCode::kFailedPrecondition, "no display to show the safe picture on", 0};
+  paint_safe_picture(vram_.scanout, pixels);
+  return show_painted(safe_picture_part(vram_.scanout.width, vram_.scanout.height));
+}
+
+Status Device::blank() {
+  const std::span<std::byte> pixels = back_pixels();
+  if (pixels.empty()) return {StatusCode::kFailedPrecondition, "no display to blank", 0};
+  std::memset(pixels.data(), 0, pixels.size());  // black in every format
+  return show_painted({});
 }
 
 std::uint64_t Device::ram_peak_bytes() const {

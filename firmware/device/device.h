@@ -79,8 +79,8 @@ class Device {
   /// Paints the safe picture (safe_picture.h) over the one that is not shown, and shows it. Needs no engine and no
   /// drawing data: it works after a boot() that failed for their sake, too.
   Status show_safe_picture();
-  /// Nothing but black is sent when this returns. What is in RAM and VRAM stays.
-  Status blank() { return ports_.display.blank(); }
+  /// Nothing but black is sent when this returns. What is in RAM stays.
+  Status blank();
 
   /// After boot().
   const DrawingData& drawing_data() const { return data_; }
@@ -94,6 +94,10 @@ class Device {
  private:
   /// The layout, in the formats asked for or in the next smaller ones that fit.
   Result<VramLayout> fit_vram(const DeviceConfig& config);
+  /// The picture that is not shown, for the CPU to paint; empty without a display.
+  std::span<std::byte> back_pixels();
+  /// Shows what the CPU has painted.
+  Status show_painted(const PictureRectangle& part);
   Status draw_list(const View& view, const Lighting& lighting, FrameReport& report);
 
   DevicePorts ports_;

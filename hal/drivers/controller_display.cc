@@ -47,21 +47,19 @@ Status ControllerDisplay::configure_layer(const PictureRectangle& part, std::uin
 }
 
 Status ControllerDisplay::do_show(std::uint32_t picture, const PictureRectangle* part) {
+  const bool shows = part == nullptr || !part->empty();
   Status status = ok_status();
-  if (part != nullptr || partial_) status = configure_layer(part != nullptr ? *part : scanout_.whole(), picture);
+  if (!shows) status = driver_.show_layer(kLayer, false);
+  else if (part != nullptr || partial_) status = configure_layer(part != nullptr ? *part : scanout_.whole(), picture);
   else status = driver_.request_flip(kLayer, picture);
   if (!status.ok()) return status;
-  partial_ = part != nullptr;
-  // After the flip: a vertical blank between the two then shows nothing yet, not the other picture.
-  status = driver_.show_layer(kLayer, true);
-  if (!status.ok()) return status;
+  if (shows) {
+    partial_ = part != nullptr;
+    // After the flip: a vertical blank between the two then shows nothing yet, not the other picture.
+    status = driver_.show_layer(kLayer, true);
+    if (!status.ok()) return status;
+  }
   return driver_.running() ? wait_for_vertical_blank() : driver_.enable();
-}
-
-Status ControllerDisplay::do_blank() {
-  Status status = driver_.show_layer(kLayer, false);
-  if (!status.ok()) return status;
-  return driver_.running() ? wait_for_vertical_blank() : ok_status();
 }
 
 Status ControllerDisplay::wait_for_vertical_blank() {

@@ -15,6 +15,7 @@ namespace usuzumi {
 /// Part of a picture, in pixels from its upper left corner.
 struct PictureRectangle {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
+  constexpr bool empty() const { return width == 0 || height == 0; }
 };
 
 /// What the display is to send, and where the firmware draws it.
@@ -45,11 +46,9 @@ class Display {
   /// free to be drawn into. Of a picture that is shown already it waits for a vertical blank all the same, by which it
   /// has been sent whole. kDeadlineExceeded when no vertical blank comes.
   Status show(std::uint32_t picture) { return do_show(picture, nullptr); }
-  /// The same of a picture that is black outside `part`; a display that has windows fetches the part alone.
+  /// The same of a picture that is black outside `part`, which may be empty: a display that has windows need fetch no
+  /// more than the part.
   Status show_part(std::uint32_t picture, const PictureRectangle& part) { return do_show(picture, &part); }
-
-  /// Sends black from the next vertical blank on, whatever the pictures hold, and returns once it does.
-  Status blank() { return do_blank(); }
 
   /// ok, or what has gone wrong with the signal since the last call.
   Status check() { return do_check(); }
@@ -62,7 +61,6 @@ class Display {
   virtual Status do_start(const Scanout& scanout) = 0;
   /// `part` is null where the whole picture counts.
   virtual Status do_show(std::uint32_t picture, const PictureRectangle* part) = 0;
-  virtual Status do_blank() = 0;
   virtual Status do_check() { return ok_status(); }
 };
 

@@ -18,7 +18,6 @@ class ControllerDisplay final : public Display {
  private:
   Status do_start(const Scanout& scanout) override;
   Status do_show(std::uint32_t picture, const PictureRectangle* part) override;
-  Status do_blank() override;
   Status do_check() override;
 
   /// `part` of the pictures where it stands in them.
