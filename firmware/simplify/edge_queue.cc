@@ -25,7 +25,7 @@ void sort_keys(std::span<EdgeKey> keys) {
   int shift = 0;
   while ((most - least) >> shift >= kBuckets) ++shift;
   std::uint32_t begin[kBuckets + 1] = {}, next[kBuckets];
-  for (const EdgeKey key : keys) ++begin[((key - least) >> shift) + 1];
+  for (const EdgeKey key : keys) ++begin[static_cast<std::size_t>((key - least) >> shift) + 1];
   for (std::size_t i = 0; i < kBuckets; ++i) {
     next[i] = begin[i];
     begin[i + 1] += begin[i];
@@ -34,7 +34,7 @@ void sort_keys(std::span<EdgeKey> keys) {
     while (next[bucket] < begin[bucket + 1]) {
       EdgeKey key = keys[next[bucket]];
       for (;;) {
-        const std::size_t home = (key - least) >> shift;
+        const auto home = static_cast<std::size_t>((key - least) >> shift);
         EdgeKey& slot = keys[next[home]++];
         if (home == bucket) {
           slot = key;
@@ -46,8 +46,10 @@ void sort_keys(std::span<EdgeKey> keys) {
       }
     }
   }
-  for (std::size_t i = 0; i < kBuckets; ++i)
-    if (begin[i + 1] - begin[i] > 1) std::sort(keys.begin() + begin[i], keys.begin() + begin[i + 1]);
+  for (std::size_t i = 0; i < kBuckets; ++i) {
+    const std::span<EdgeKey> bucket = keys.subspan(begin[i], begin[i + 1] - begin[i]);
+    if (bucket.size() > 1) std::sort(bucket.begin(), bucket.end());
+  }
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ class Binner {
   bool refill(std::uint32_t need) {
     const std::uint32_t page =
         pool_.capacity() / 256 < 16 ? 16 : (pool_.capacity() / 256 > 256 ? 256 : pool_.capacity() / 256);
-    for (const std::uint32_t count : {need > page ? need : page, need}) {
+    const std::uint32_t counts[] = {need > page ? need : page, need};
+    for (const std::uint32_t count : counts) {
       const std::uint32_t at = pool_.take(count);
       if (at == SlotPool::kNone) continue;
       cursor_ = at;

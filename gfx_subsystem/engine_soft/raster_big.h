@@ -80,8 +80,8 @@ struct RowOfBlocks {
     for (int i = 0; i < t.edges; ++i) {
       const std::int32_t a = t.a[i], b = t.b[i];
       const I32 e = lane * a + (t.edge[i] + a * (first * kBlockSize) + b * (row * kBlockSize));
-      outside |= e + (std::max(a, 0) + std::max(b, 0)) * kSpan;
-      crossed |= e + (std::min(a, 0) + std::min(b, 0)) * kSpan;
+      outside |= e + (std::max<std::int32_t>(a, 0) + std::max<std::int32_t>(b, 0)) * kSpan;
+      crossed |= e + (std::min<std::int32_t>(a, 0) + std::min<std::int32_t>(b, 0)) * kSpan;
     }
     blocks.outside |= sign_bits(outside) << first;
     blocks.crossed |= sign_bits(crossed) << first;
@@ -140,10 +140,10 @@ std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const Til
 template <bool kRgb565>
 std::uint32_t raster_big(const DrawSetup& d, const BigTriangle& t, TileOrigin origin, const TileBuffers& tile) {
   TileTriangle local;
-  local.x0 = std::max(t.x - origin.x, 0);
-  local.y0 = std::max(t.y - origin.y, 0);
-  local.x1 = std::min(t.last_x - origin.x, kTileSize - 1);
-  local.y1 = std::min(t.last_y - origin.y, kTileSize - 1);
+  local.x0 = std::max<std::int32_t>(t.x - origin.x, 0);
+  local.y0 = std::max<std::int32_t>(t.y - origin.y, 0);
+  local.x1 = std::min<std::int32_t>(t.last_x - origin.x, kTileSize - 1);
+  local.y1 = std::min<std::int32_t>(t.last_y - origin.y, kTileSize - 1);
   if (!cross_edges(t, origin, local)) return 0;
   derive_planes(t, origin, local);
   const auto raster = [&](auto depth) {

@@ -29,10 +29,10 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
   const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
   const bool clipped = (t.draw & kClippedBox) != 0;
   const std::int32_t x = t.x - origin.x, y = t.y - origin.y;  // of the record's origin pixel within the tile
-  const std::int32_t first_column = std::max(x, 0) / kBlockSize,
-                     last_column = std::min(x + t.last_x, kTileSize - 1) / kBlockSize;
-  const std::int32_t first_row = std::max(y, 0) / kBlockSize,
-                     last_row = std::min(y + t.last_y, kTileSize - 1) / kBlockSize;
+  const std::int32_t first_column = std::max<std::int32_t>(x, 0) / kBlockSize,
+                     last_column = std::min<std::int32_t>(x + t.last_x, kTileSize - 1) / kBlockSize;
+  const std::int32_t first_row = std::max<std::int32_t>(y, 0) / kBlockSize,
+                     last_row = std::min<std::int32_t>(y + t.last_y, kTileSize - 1) / kBlockSize;
   const LanePattern lanes = lane_pattern();
   const I16 step0 = bits_as<I16>(splat_u(pair(t.step[0][0], t.step[0][1])));
   const I16 step1 = bits_as<I16>(splat_u(pair(t.step[1][0], t.step[1][1])));

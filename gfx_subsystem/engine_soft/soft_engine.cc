@@ -131,7 +131,8 @@ Status SoftEngine::bind_target(const EngineState& s) {
 
 bool SoftEngine::lay_out_memory() {
   const std::uint32_t tiles = round_.grid.count();
-  const std::uint32_t threads = runner_ == nullptr ? 1 : std::clamp(runner_->thread_count(), 1u, kMaxWorkers);
+  const std::uint32_t threads =
+      runner_ == nullptr ? 1 : std::clamp<std::uint32_t>(runner_->thread_count(), 1, kMaxWorkers);
   const Layout layout(work_memory_.size(), tiles, threads);
   Arena arena(work_memory_);
   bool fits = true;

@@ -116,8 +116,9 @@ inline void fill_plane(const Plane& plane, const PixelRect& rect, std::uint32_t 
 
 /// The part of a clear within a tile, counted from the tile's first pixel.
 inline PixelRect within_tile(const PixelRect& r, const TileExtent& tile) {
-  return {std::max(r.x0 - tile.origin.x, 0), std::max(r.y0 - tile.origin.y, 0),
-          std::min(r.x1 - tile.origin.x, tile.width), std::min(r.y1 - tile.origin.y, tile.height)};
+  return {std::max<std::int32_t>(r.x0 - tile.origin.x, 0), std::max<std::int32_t>(r.y0 - tile.origin.y, 0),
+          std::min<std::int32_t>(r.x1 - tile.origin.x, tile.width),
+          std::min<std::int32_t>(r.y1 - tile.origin.y, tile.height)};
 }
 inline bool fills_tile(const PixelRect& in_tile, const TileExtent& tile) {
   return in_tile.x0 == 0 && in_tile.y0 == 0 && in_tile.x1 == tile.width && in_tile.y1 == tile.height;
