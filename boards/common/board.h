@@ -24,12 +24,15 @@ class Board : public Clock, public Pins, public Display {
  public:
   /// What happens, for a person or for a test: whole lines, each with its '\n'.
   void print(std::string_view line) { do_print(line); }
+  /// After each step's line: where a test holds the board to look at its panel.
+  void step_done() { do_step_done(); }
 
  protected:
   ~Board() = default;
 
  private:
   virtual void do_print(std::string_view) {}
+  virtual void do_step_done() {}
   void do_charge(CpuWork, std::uint64_t) final {}  // on a board the time has passed
 };
 

@@ -7,7 +7,7 @@
 namespace usuzumi::firmware {
 
 Status Device::boot(const DeviceConfig& config) {
-  booted_ = display_ready_ = false;
+  booted_ = display_ready_ = painted_ = false;
   back_ = 0;
   config_ = config;
   // The display first, so that whatever fails later can be told by the safe picture.
@@ -91,11 +91,15 @@ Status Device::show_picture(FrameReport& report) {
   const std::uint64_t begin = ports_.clock.now_ns();
   const Status status = ports_.display.show(back_);
   report.wait_ns = ports_.clock.now_ns() - begin;
-  if (status.ok()) back_ ^= 1;
+  if (!status.ok()) return status;
+  back_ ^= 1;
+  painted_ = false;
   return status;
 }
 
-Status Device::complete_picture() { return ports_.display.show(back_ ^ 1); }
+Status Device::complete_picture() {
+  return painted_ ? ports_.display.show_part(shown_picture(), painted_part_) : ports_.display.show(shown_picture());
+}
 
 std::span<std::byte> Device::back_pixels() {
   if (!display_ready_) return {};
@@ -105,7 +109,10 @@ std::span<std::byte> Device::back_pixels() {
 
 Status Device::show_painted(const PictureRectangle& part) {
   const Status status = ports_.display.show_part(back_, part);
-  if (status.ok()) back_ ^= 1;
+  if (!status.ok()) return status;
+  back_ ^= 1;
+  painted_ = true;
+  painted_part_ = part;
   return status;
 }
 

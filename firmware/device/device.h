@@ -74,7 +74,7 @@ class Device {
   Status draw_picture(const FrameRequest& request, FrameReport& report);
   /// Shows the picture just drawn; returns once it is being sent.
   Status show_picture(FrameReport& report);
-  /// Waits until the shown picture has been sent whole.
+  /// Waits until what is shown has been sent whole.
   Status complete_picture();
   /// Paints the safe picture (safe_picture.h) over the one that is not shown, and shows it. Needs no engine and no
   /// drawing data: it works after a boot() that failed for their sake, too.
@@ -109,6 +109,8 @@ class Device {
   VramLayout vram_;
   std::span<std::uint32_t> command_words_;
   std::uint32_t back_ = 0;  // the picture that is drawn next
+  PictureRectangle painted_part_;  // of the shown picture, where the CPU has painted it
+  bool painted_ = false;
   bool display_ready_ = false;
   bool booted_ = false;
 };
