@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes today's pictures the goldens: bash tests/golden/approve.sh [NAME...]
-# Builds, rewrites manifest.txt and the PNGs of those whose names begin so (of all, without names), and prints what
+# Builds, rewrites manifest and the PNGs of those whose names begin so (of all, without names), and prints what
 # changed.
 # Look at the new pictures before you commit them. README.md beside this file says more.
 set -euo pipefail

@@ -17,37 +17,45 @@
 namespace usuzumi::golden {
 namespace {
 
-void tell_change(const Store& store, const Subject& subject, const sim::Image& picture, std::uint32_t crc) {
-  const Entry* old = store.find(subject.name);
-  if (old == nullptr) {
-    std::printf("new      %-24s %08x\n", subject.name, crc);
-    return;
+void tell_changed_lines(const Store& store, const Subject& subject, const Drawn& drawn) {
+  for (const Entry& entry : drawn.entries) {
+    const Entry* old = store.find(entry.name);
+    if (old == nullptr) std::printf("new      %-28s %08x\n", entry.name.c_str(), entry.crc32);
+    else if (*old != entry) std::printf("changed  %-28s %08x -> %08x\n", entry.name.c_str(), old->crc32, entry.crc32);
   }
-  std::printf("changed  %-24s %08x -> %08x\n", subject.name, old->crc32, crc);
-  const std::filesystem::path path = store.picture_path(subject.name);
-  if (std::filesystem::exists(path))
-    std::printf("%s", sim::report_text(sim::compare_images(sim::read_png(path), picture)).c_str());
+  const auto has = [&](const std::string& name) {
+    return std::any_of(drawn.entries.begin(), drawn.entries.end(), [&](const Entry& e) { return e.name == name; });
+  };
+  for (const Entry& old : store.entries_of(subject.name))
+    if (!has(old.name)) std::printf("removed  %s\n", old.name.c_str());
+  if (store.exclusions_of(subject.name) != subject.exclusions)
+    std::printf("changed  the boards that %s is not on\n", subject.name);
 }
 
-bool up_to_date(const Store& store, const Subject& subject, const sim::Image& picture) {
-  const Entry* entry = store.find(subject.name);
+/// Whether the PNG shows the picture; what differs is told.
+bool png_up_to_date(const Store& store, const Subject& subject, const sim::Image& picture) {
   const std::filesystem::path path = store.picture_path(subject.name);
-  return entry != nullptr && entry->note == subject.note && entry->crc32 == sim::picture_crc32(picture) &&
-         std::filesystem::exists(path) && sim::read_png(path) == picture;
+  if (!std::filesystem::exists(path)) return false;
+  const sim::Image old = sim::read_png(path);
+  if (old == picture) return true;
+  std::printf("%s", sim::report_text(sim::compare_images(old, picture)).c_str());
+  return false;
 }
 
 void approve_subject(Store& store, const Subject& subject) {
-  const sim::Image picture = subject.draw();
-  if (up_to_date(store, subject, picture)) return;
-  const std::uint32_t crc = sim::picture_crc32(picture);
-  tell_change(store, subject, picture, crc);
-  store.put({subject.name, picture.width, picture.height, crc, subject.note}, picture);
+  const Drawn drawn = subject.draw();
+  tell_changed_lines(store, subject, drawn);
+  const bool same_png = png_up_to_date(store, subject, drawn.picture);
+  if (same_png && store.entries_of(subject.name) == drawn.entries &&
+      store.exclusions_of(subject.name) == subject.exclusions)
+    return;
+  store.put(drawn.entries, subject.exclusions, drawn.picture);
 }
 
 // Goldens of what is no more.
 void remove_stale(Store& store, std::span<const Subject> subjects) {
   std::set<std::string> stale;
-  for (const Entry& entry : store.entries()) stale.insert(entry.scene);
+  for (const Entry& entry : store.entries()) stale.emplace(case_of(entry.name));
   for (const std::string& picture : store.pictures_on_disk()) stale.insert(picture);
   for (const Subject& subject : subjects) stale.erase(subject.name);
   for (const std::string& name : stale) {
@@ -78,7 +86,7 @@ void approve(std::span<char*> words) {
   const std::vector<Subject> subjects = subjects_named(words);
   for (const Subject& subject : subjects) approve_subject(store, subject);
   if (words.empty()) remove_stale(store, subjects);
-  std::printf("%zu goldens in %s; what is not listed above is as it was\n", store.entries().size(),
+  std::printf("%zu lines in %s/manifest; what is not listed above is as it was\n", store.entries().size(),
               Store::source_folder().c_str());
 }
 

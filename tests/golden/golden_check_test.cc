@@ -42,11 +42,11 @@ TEST_F(GoldenCheck, CrcIsThatOfRgbBytesInScanOrder) {
 TEST_F(GoldenCheck, ApprovedPictureIsReadBackAndPasses) {
   sim::Image picture(5, 4, 0x0A0A0A);
   picture.at(2, 1) = 0xC80A0A;
-  Store(folder_).put(entry_of("02-b", sim::Image(2, 2, 1)), sim::Image(2, 2, 1));
-  Store(folder_).put(entry_of("01-a", picture), picture);
+  Store(folder_).put({entry_of("02-b", sim::Image(2, 2, 1))}, {}, sim::Image(2, 2, 1));
+  Store(folder_).put({entry_of("01-a", picture)}, {}, picture);
   const Store store(folder_);
   ASSERT_EQ(store.entries().size(), 2u);
-  EXPECT_EQ(store.entries()[0].scene, "01-a") << "sorted by scene";
+  EXPECT_EQ(store.entries()[0].name, "01-a") << "sorted by scene";
   EXPECT_EQ(store.entries()[0].width, 5u);
   EXPECT_EQ(store.entries()[0].height, 4u);
   EXPECT_EQ(store.entries()[0].note, "a note of words");
@@ -66,7 +66,7 @@ TEST_F(GoldenCheck, MissingGoldenFailsAndLeavesTheActualPicture) {
 TEST_F(GoldenCheck, GoldenWithoutItsPngFails) {
   const sim::Image picture(3, 3, 9);
   Store store(folder_);
-  store.put(entry_of("01-a", picture), picture);
+  store.put({entry_of("01-a", picture)}, {}, picture);
   std::filesystem::remove(store.picture_path("01-a"));
   EXPECT_THAT(check_golden(store, "01-a", picture, failures()).report, HasSubstr("golden has no PNG"));
 }
@@ -76,7 +76,7 @@ TEST_F(GoldenCheck, ManifestAndPngThatContradictEachOtherFail) {
   Store store(folder_);
   Entry entry = entry_of("01-a", picture);
   entry.crc32 ^= 1;
-  store.put(entry, picture);
+  store.put({entry}, {}, picture);
   EXPECT_THAT(check_golden(store, "01-a", picture, failures()).report, HasSubstr("its own PNG"));
 }
 
@@ -85,7 +85,7 @@ TEST_F(GoldenCheck, OneWrongPixelFailsByItsPlaceAndLeavesThreePictures) {
   sim::Image actual = expected;
   actual.at(1, 2) = 0x646465;
   Store store(folder_);
-  store.put(entry_of("01-a", expected), expected);
+  store.put({entry_of("01-a", expected)}, {}, expected);
   const Verdict verdict = check_golden(store, "01-a", actual, failures());
   EXPECT_FALSE(verdict.ok);
   EXPECT_THAT(verdict.report, HasSubstr("1 of 12 pixels differ, largest channel difference 1"));
@@ -100,7 +100,7 @@ TEST_F(GoldenCheck, OneWrongPixelFailsByItsPlaceAndLeavesThreePictures) {
 TEST_F(GoldenCheck, PictureOfAnotherSizeFailsAndLeavesThreePicturesToo) {
   Store store(folder_);
   const sim::Image expected(4, 3, 1), actual(3, 4, 1);
-  store.put(entry_of("01-a", expected), expected);
+  store.put({entry_of("01-a", expected)}, {}, expected);
   EXPECT_THAT(check_golden(store, "01-a", actual, failures()).report, HasSubstr("is 3 x 4, golden is 4 x 3"));
   EXPECT_EQ(sim::read_png(failures() / "01-a.actual.png"), actual);
   EXPECT_EQ(sim::read_png(failures() / "01-a.expected.png"), expected);
@@ -113,15 +113,38 @@ TEST_F(GoldenCheck, PictureOfAnotherSizeFailsAndLeavesThreePicturesToo) {
 }
 
 TEST_F(GoldenCheck, ManifestLineThatCannotBeReadIsNamed) {
-  std::ofstream(folder_ / "manifest.txt") << "# a comment\n\n01-a 3 3 0badcafe note\n02-b 3 three 0badcafe\n";
-  EXPECT_THAT([&] { Store store(folder_); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("manifest.txt:4")));
-  std::ofstream(folder_ / "manifest.txt") << "01-a 3 3 0badcafe\n01-a 3 3 0badcafe\n";
-  EXPECT_THAT([&] { Store store(folder_); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("named twice")));
+  const auto refused = [&](const char* manifest, const char* message) {
+    std::ofstream(folder_ / "manifest") << manifest;
+    EXPECT_THAT([&] { Store store(folder_); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr(message)));
+  };
+  refused("# a comment\n\n01-a 3 3 0badcafe note\n02-b 3 three 0badcafe\n", "manifest:4");
+  refused("01-a 3 3 0badcafe\n01-a 3 3 0badcafe\n", "named twice");
+  refused("01-a 3 3 0badcafe\n01-a not on m7:\n", "manifest:2");
+  refused("01-a not on m7: too wide\n01-a 3 3 0badcafe\n", "no picture of 01-a above");
+  refused("01-a 3 3 0badcafe\n01-a not on m7: too wide\n01-a not on m7: too high\n", "come twice");
+}
+
+TEST_F(GoldenCheck, CaseKeepsItsFramesMeshesAndBoardsThroughTheManifest) {
+  const sim::Image picture(4, 3, 1);
+  const std::vector<Entry> lines{entry_of("run-1", picture), {"run-1/frame-0", 4, 3, 7, "frame 1 of 2"},
+                                 {"run-1/mesh-00", 12, 0, 9, "a strip has no indices"}};
+  const std::vector<Exclusion> boards{{"run-1", "m7", "too wide: 4 columns"}, {"run-1", "m0", "too high"}};
+  Store store(folder_);
+  store.put({entry_of("run-1-more", picture)}, {}, picture);
+  store.put({lines[2], lines[1], lines[0]}, boards, picture);
+  EXPECT_EQ(Store(folder_).entries_of("run-1"), lines) << "sorted by name, apart from run-1-more";
+  EXPECT_EQ(Store(folder_).exclusions_of("run-1"), boards);
+  store.put({lines[0], lines[1]}, {}, picture);
+  EXPECT_EQ(Store(folder_).entries_of("run-1").size(), 2u) << "what the case no longer has is gone";
+  EXPECT_TRUE(Store(folder_).exclusions().empty());
+  store.remove("run-1");
+  ASSERT_EQ(Store(folder_).entries().size(), 1u);
+  EXPECT_EQ(Store(folder_).entries()[0].name, "run-1-more");
 }
 
 TEST_F(GoldenCheck, RemovedGoldenIsGoneFromManifestAndFolder) {
   Store store(folder_);
-  store.put(entry_of("01-a", sim::Image(4, 3, 1)), sim::Image(4, 3, 1));
+  store.put({entry_of("01-a", sim::Image(4, 3, 1))}, {}, sim::Image(4, 3, 1));
   EXPECT_THAT(store.pictures_on_disk(), testing::ElementsAre("01-a"));
   store.remove("01-a");
   EXPECT_EQ(Store(folder_).find("01-a"), nullptr);

@@ -139,10 +139,12 @@ TEST(GoldenManifest, NamesEverySceneAndRunAndNothingElse) {
                               << " has no golden; if its picture is right: bash tests/golden/approve.sh "
                               << subject.name;
     EXPECT_EQ(entry->note, subject.note) << subject.name << ": approve.sh brings the manifest's note up to date";
+    EXPECT_EQ(source_store().exclusions_of(subject.name), subject.exclusions)
+        << subject.name << ": approve.sh brings the boards that it is not on up to date";
   }
   for (const Entry& entry : source_store().entries())
-    EXPECT_EQ(found.count(entry.scene), 1u)
-        << entry.scene << " is a golden of nothing; approve.sh without names takes it away";
+    EXPECT_EQ(found.count(std::string(case_of(entry.name))), 1u)
+        << entry.name << " is a golden of nothing; approve.sh without names takes it away";
   for (const std::string& picture : source_store().pictures_on_disk())
     EXPECT_NE(source_store().find(picture), nullptr) << picture << ".png is no golden of the manifest";
 }

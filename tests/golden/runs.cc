@@ -1,5 +1,10 @@
 #include "tests/golden/runs.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "hal/crc32.h"
 #include "tests/support/desk_request.h"
 #include "tests/support/mesh_shapes.h"
 #include "tests/support/scene_meshes.h"
@@ -10,6 +15,8 @@ namespace {
 
 using firmware::format::QuotaKind;
 using testing::TestMesh;
+
+constexpr std::size_t kKiB = 1024, kMiB = 1024 * kKiB;
 
 /// Any of the tests' indexed meshes, scaled and moved.
 template <class Mesh>
@@ -86,6 +93,16 @@ testing::RomImage crowd_rom() {
   return testing::container_rom(meshes);
 }
 
+/// The same kinds of meshes in sizes that 320 KiB of RAM thin.
+testing::RomImage small_assembly_rom() {
+  testing::Mesh dome = testing::icosphere(3);
+  for (const Vec3& p : dome.positions) dome.normals.push_back(pack_normal(p));
+  std::vector<TestMesh> meshes = assembly();
+  meshes[1] = with_quota(placed(dome, 0.4f, {-0.4f, 0.3f, 0.5f}, 3, rgba8(230, 140, 40)), QuotaKind::kFaces, 300);
+  meshes[2] = placed(scenes::torus(0.35f, 0.12f, 24, 12), 1, {0.5f, 0.3f, 0.4f}, 3, {});
+  return testing::container_rom(meshes);
+}
+
 testing::RomImage assembly_rom() { return testing::container_rom(assembly()); }
 
 testing::RomImage bare_assembly_rom() {
@@ -106,18 +123,58 @@ firmware::ThinningSettings one_budget(std::uint32_t faces) {
   return settings;
 }
 
+/// "NAME/what-7" with as many digits as asked for.
+std::string below(const DeviceRun& run, const char* what, std::size_t number, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "/%s-%0*zu", what, digits, number);
+  return run.name + std::string(text);
+}
+
+Entry frame_entry(const DeviceRun& run, std::size_t frame, bool last, const sim::Image& picture) {
+  return {last ? run.name : below(run, "frame", frame, 1), picture.width, picture.height, sim::picture_crc32(picture),
+          last ? run.note : "shown before it"};
+}
+
+const char* what_was_done(const firmware::MeshState& state) {
+  if (state.build.outcome == firmware::BuildOutcome::kUnthinned) return "copied for want of RAM to thin it in";
+  switch (state.decision.action) {
+    case firmware::Action::kCollapse: return state.build.collapsed ? "collapsed" : "copied, within its quota";
+    case firmware::Action::kPoint: return "one point";
+    case firmware::Action::kLine: return "one line";
+    case firmware::Action::kKeep:
+    case firmware::Action::kDelete: break;
+  }
+  return "copied";
+}
+
+void append_meshes(const DeviceRun& run, const firmware::Thinning& thinning, std::vector<Entry>& entries) {
+  const firmware::RamCopy& copy = thinning.copy();
+  for (std::uint32_t n = 0; n < copy.mesh_max(); ++n) {
+    if (!copy.present(n)) continue;
+    const firmware::CopyMesh& mesh = copy.mesh(n);
+    const firmware::MeshState& state = thinning.state(n);
+    const std::string faces = std::to_string(mesh.faces) + " of " + std::to_string(state.faces) + " faces";
+    entries.push_back({below(run, "mesh", n, 2), mesh.vertex_count, mesh.index_count,
+                       crc32(kCrc32Start, {copy.block(n), copy.block_bytes(n)}),
+                       what_was_done(state) + (", " + faces)});
+  }
+}
+
+const char* const kBallTooLarge = "takes 384 KiB of RAM, most of it to thin the ball; the board thins in 320";
+
 }  // namespace
 
 std::span<const DeviceRun> all_runs() {
   static const std::vector<DeviceRun> runs{
       {"run-01-levels",
        "a container of every level, thinned as its authors say",
-       sim::host_sim(),
+       with_ram(sim::host_sim(), kMiB),
        240,
        160,
        assembly_rom,
        {},
-       {0.3}},
+       {0.3},
+       {{"cortex-m7", kBallTooLarge}}},
       {"run-02-bare",
        "the same shapes in bare drawing data, 16 bits a pixel",
        sim::small_board(),
@@ -125,23 +182,26 @@ std::span<const DeviceRun> all_runs() {
        136,
        bare_assembly_rom,
        {},
-       {0.3}},
+       {0.3},
+       {{"cortex-m7", "takes 1330 KiB of RAM for strips of single faces; the board thins in 320"}}},
       {"run-03-budget",
        "one budget over the level-3 meshes, midpoint placement",
-       sim::host_sim(),
+       with_ram(sim::host_sim(), kMiB),
        240,
        160,
        assembly_rom,
        one_budget(600),
-       {0.3}},
+       {0.3},
+       {{"cortex-m7", kBallTooLarge}}},
       {"run-04-turn",
        "bolts come and go as the camera turns",
-       sim::host_sim(),
+       with_ram(sim::host_sim(), kMiB),
        240,
        160,
        assembly_rom,
        {},
-       {-0.5, 0.1, 0.7}},
+       {-0.5, 0.1, 0.7},
+       {{"cortex-m7", kBallTooLarge}}},
       {"run-05-short-of-ram",
        "quotas halved for want of RAM",
        with_ram(sim::host_sim(), 100'000),
@@ -149,7 +209,26 @@ std::span<const DeviceRun> all_runs() {
        160,
        crowd_rom,
        {},
-       {0.3}},
+       {0.3},
+       {}},
+      {"run-06-wide",
+       "a cluster's whole width",
+       with_ram(sim::host_sim(), kMiB),
+       1920,
+       720,
+       assembly_rom,
+       {},
+       {0.3},
+       {{"cortex-m7", "two pictures and depth of 1920x720 take 15.8 MiB of VRAM, of which it has 4"}}},
+      {"run-07-small-cluster",
+       "a small cluster's panel in 16 bits, turning, thinned within 320 KiB",
+       with_ram(sim::small_board(), 320 * kKiB),
+       480,
+       272,
+       small_assembly_rom,
+       {},
+       {0.3, 0.9},
+       {}},
   };
   return runs;
 }
@@ -163,15 +242,22 @@ RunPicture draw_run(const DeviceRun& run, std::span<const double> azimuths_rad, 
   const testing::RomImage rom = run.rom();
   sim::Desk desk(config, rom.bytes(), run.name);
   RunPicture result;
-  for (const double azimuth : azimuths_rad) {
-    firmware::FrameRequest request = testing::request_for(desk, azimuth);
+  for (std::size_t frame = 0; frame < azimuths_rad.size(); ++frame) {
+    firmware::FrameRequest request = testing::request_for(desk, azimuths_rad[frame]);
     request.thinning = run.thinning;
     const auto shown = desk.draw(request);
+    const bool last = frame + 1 == azimuths_rad.size();
+    result.entries.push_back(frame_entry(run, frame, last, shown.picture));
+    if (!last) continue;
     result.picture = shown.picture;
     result.signature_crc = shown.record.crc32;
     result.thinning = shown.record.firmware.thinning;
   }
+  append_meshes(run, desk.device().thinning(), result.entries);
+  std::sort(result.entries.begin(), result.entries.end(),
+            [](const Entry& a, const Entry& b) { return a.name < b.name; });
   result.vram_crc = sim::picture_crc32(desk.picture_in_vram());
+  result.memory = desk.memory();
   return result;
 }
 

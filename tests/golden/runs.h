@@ -9,18 +9,26 @@
 
 #include "firmware/thinning/policy.h"
 #include "sim/desk/desk.h"
+#include "tests/golden/golden_store.h"
 #include "tests/support/rom_builder.h"
 
 namespace usuzumi::golden {
 
+/// A real board that a run is too big for, by the names of boards/.
+struct NotOn {
+  const char* board;
+  const char* reason;
+};
+
 struct DeviceRun {
-  const char* name;  // names the PNG and the line in the manifest
+  const char* name;  // names the PNG and the lines in the manifest
   const char* note;  // what the run proves
   sim::BoardDescription board;
   std::uint32_t width, height;
   std::function<testing::RomImage()> rom;
   firmware::ThinningSettings thinning;
-  std::vector<double> azimuths_rad;  // of the camera, one a frame; the last frame has the golden
+  std::vector<double> azimuths_rad;  // of the camera, one a frame; the last frame has the PNG
+  std::vector<NotOn> not_on;
 };
 
 std::span<const DeviceRun> all_runs();
@@ -30,6 +38,9 @@ struct RunPicture {
   std::uint32_t signature_crc = 0;  // of it, by the display controller's signature unit
   std::uint32_t vram_crc = 0;       // of it, straight from VRAM
   firmware::ThinningReport thinning;
+  sim::Desk::Memory memory;
+  /// The manifest's lines: every frame, and every mesh of the RAM copy after the last one, sorted by name.
+  std::vector<Entry> entries;
 };
 
 /// Boots a device and draws the frames of `azimuths_rad`. Throws sim::Error where the device fails.

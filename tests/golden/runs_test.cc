@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <string_view>
 
 #include "tests/golden/golden_check.h"
 #include "tests/golden/golden_fixture.h"
@@ -25,6 +26,18 @@ TEST_P(GoldenRun, PanelShowsTheGoldenExactly) {
   EXPECT_LT(drawn.thinning.faces_out, drawn.thinning.faces_in) << "a run that thins nothing proves nothing";
 }
 
+TEST_P(GoldenRun, EveryFrameAndThinnedMeshIsAsInTheManifest) {
+  const std::vector<Entry> drawn = draw_run(GetParam()).entries, golden = source_store().entries_of(GetParam().name);
+  ASSERT_EQ(drawn.size(), golden.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    EXPECT_EQ(drawn[i].name, golden[i].name);
+    EXPECT_EQ(drawn[i].width, golden[i].width) << drawn[i].name << ": width, or vertices";
+    EXPECT_EQ(drawn[i].height, golden[i].height) << drawn[i].name << ": height, or indices";
+    EXPECT_EQ(drawn[i].crc32, golden[i].crc32) << drawn[i].name;
+    EXPECT_EQ(drawn[i].note, golden[i].note) << drawn[i].name;
+  }
+}
+
 TEST_P(GoldenRun, EveryRouteGivesTheSamePicture) {
   const std::vector<double>& azimuths = GetParam().azimuths_rad;
   const RunPicture first = draw_run(GetParam());
@@ -39,6 +52,28 @@ TEST_P(GoldenRun, EveryRouteGivesTheSamePicture) {
 
 INSTANTIATE_TEST_SUITE_P(Runs, GoldenRun, ::testing::ValuesIn(all_runs().begin(), all_runs().end()),
                          test_name<DeviceRun>);
+
+/// What a board gives the runs, as boards/ divides its memory.
+struct BoardMemory {
+  const char* board;
+  std::size_t ram_bytes, vram_bytes;
+};
+constexpr BoardMemory kBoards[] = {{"cortex-m7", 320 * 1024, 4 * 1024 * 1024}};
+
+TEST(GoldenRuns, AreNotOnBoardsThatAreTooSmallAndOnAllOthers) {
+  for (const DeviceRun& run : all_runs()) {
+    const sim::Desk::Memory needed = draw_run(run).memory;
+    for (const BoardMemory& memory : kBoards) {
+      const bool excluded = std::any_of(run.not_on.begin(), run.not_on.end(),
+                                        [&](const NotOn& n) { return std::string_view(n.board) == memory.board; });
+      const bool fits = needed.ram_peak_bytes <= memory.ram_bytes && needed.vram_bytes <= memory.vram_bytes;
+      EXPECT_EQ(excluded, !fits) << run.name << " takes " << needed.ram_peak_bytes << " bytes of RAM, "
+                                 << needed.vram_bytes << " of VRAM; " << memory.board << " has " << memory.ram_bytes
+                                 << " and " << memory.vram_bytes;
+      EXPECT_TRUE(excluded || run.board.ram_bytes <= memory.ram_bytes) << run.name << " asks for more than it needs";
+    }
+  }
+}
 
 TEST(GoldenRuns, ShortOfRamHalvesQuotas) {
   const auto runs = all_runs();

@@ -5,13 +5,20 @@
 #include <vector>
 
 #include "sim/image/image.h"
+#include "tests/golden/golden_store.h"
 
 namespace usuzumi::golden {
+
+struct Drawn {
+  sim::Image picture;          // for the PNG
+  std::vector<Entry> entries;  // for the manifest
+};
 
 struct Subject {
   const char* name;
   const char* note;
-  std::function<sim::Image()> draw;  // throws std::runtime_error where that does not go well
+  std::vector<Exclusion> exclusions;
+  std::function<Drawn()> draw;  // throws std::runtime_error where that does not go well
 };
 
 std::vector<Subject> all_subjects();
