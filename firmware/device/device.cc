@@ -20,6 +20,9 @@ Status Device::boot(const DeviceConfig& config) {
 
   const auto data = DrawingData::open(ports_.rom);
   if (!data.ok()) return data.status();
+  if (!data->board().empty() && !config.board.empty() && data->board() != config.board)
+    return {StatusCode::kUnsupported, "drawing data are for another board, whose name stands at byte offset",
+            static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(data->board().data()) - ports_.rom.data())};
   data_ = *data;
   ram_ = Arena(ports_.ram);
   command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_.mesh_max()));

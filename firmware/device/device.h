@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "firmware/device/scene_commands.h"
 #include "firmware/device/vram_layout.h"
@@ -35,6 +36,7 @@ struct DevicePorts {
 };
 
 struct DeviceConfig {
+  std::string_view board;               // its name: drawing data packed for another are refused
   std::uint32_t width = 0, height = 0;  // pixels
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;

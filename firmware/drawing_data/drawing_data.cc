@@ -91,7 +91,7 @@ struct Range {
 
 /// The container's section table, resolved.
 struct Sections {
-  Range records, meshes, indices, normals, colours, names;
+  Range records, meshes, indices, normals, colours, names, board;
 
   Range* of(format::SectionType type) {
     switch (type) {
@@ -101,6 +101,7 @@ struct Sections {
       case format::SectionType::kNormals: return &normals;
       case format::SectionType::kColours: return &colours;
       case format::SectionType::kNames: return &names;
+      case format::SectionType::kBoard: return &board;
     }
     return nullptr;
   }
@@ -223,6 +224,13 @@ Status check_meshes(const Words& words, const Sections& sections) {
   return ok_status();
 }
 
+/// The section's letters without the zeros behind them.
+std::string_view board_name(std::span<const std::byte> rom, const Range& section) {
+  std::string_view name(reinterpret_cast<const char*>(rom.data()) + section.begin, section.end - section.begin);
+  while (!name.empty() && name.back() == '\0') name.remove_suffix(1);
+  return name;
+}
+
 MeshView bare_view(const Words& words, std::uint32_t n, std::uint32_t record_offset) {
   MeshView view;
   view.number = n;
@@ -266,6 +274,7 @@ Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   if (status.ok()) status = check_meshes(words, sections);
   if (!status.ok()) return status;
   data.bare_ = false;
+  data.board_ = board_name(rom, sections.board);
   data.mesh_max_ = words.at(sections.records.begin);
   data.first_record_ = sections.records.begin + 4;
   data.descriptors_offset_ = sections.meshes.begin;

@@ -69,9 +69,12 @@ class DrawingData {
     for (std::uint32_t n = 0; n < mesh_max_; ++n, record = next_record(record)) visit(mesh_at(n, record));
   }
   std::span<const std::byte> bytes() const { return rom_; }
+  /// The board it was packed for; empty where it is for any, as bare data always are.
+  std::string_view board() const { return board_; }
 
  private:
   std::span<const std::byte> rom_;
+  std::string_view board_;
   bool bare_ = true;
   std::uint32_t mesh_max_ = 0;
   std::uint32_t first_record_ = 4;

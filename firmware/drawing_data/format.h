@@ -40,6 +40,7 @@ enum class SectionType : std::uint32_t {  // four letters, first in the low byte
   kNormals = 0x4C4D524E,                  // "NRML"
   kColours = 0x524C4F43,                  // "COLR"
   kNames = 0x454D414E,                    // "NAME"
+  kBoard = 0x44524F42,                    // "BORD": the name of the only board it is for, padded with zeros
   // Kept for later versions: "TXCO" texture coordinates, "MATL" materials, "TEXT" textures, "SOLD" solids, "LAYR"
   // layers.
 };

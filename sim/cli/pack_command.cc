@@ -37,6 +37,7 @@ namespace fs = std::filesystem;
 struct PackOptions {
   std::vector<std::string> inputs;
   std::string output;
+  std::string board;
   std::vector<std::string> sidecars, levels, quotas, areas, telltales;
   std::optional<std::uint32_t> default_level;
   bool bare = false;
@@ -118,6 +119,8 @@ int pack(const PackOptions& options) {
   std::vector<fs::path> read = inputs;
   read.insert(read.end(), options.sidecars.begin(), options.sidecars.end());
   check_output(options.output, "-o", read);
+  if (options.bare && !options.board.empty())
+    throw Error(ExitCode::kUsage, "--bare has no room for the name of a board; leave --bare or --board out");
   if (options.bare) {
     check_bare_can_keep(from_options, ExitCode::kUsage);
     check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
@@ -128,7 +131,7 @@ int pack(const PackOptions& options) {
   if (options.bare) note_what_bare_loses(model);
 
   std::optional<Progress> writing(std::in_place, "writing " + options.output);
-  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model);
+  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model, options.board);
   const firmware::DrawingData data = checked(rom);
   write_file_atomically(options.output, rom);
   writing.reset();
@@ -167,6 +170,8 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
   command->add_option("--default-level", options->default_level, "Level of the meshes that have none")
       ->transform(whole_number(0, firmware::kLevelCount - 1));
+  command->add_option("--board", options->board, "The only board that will take the ROM; without it any does")
+      ->check([](const std::string& name) { return name.empty() ? std::string("must not be empty") : std::string(); });
   command->add_flag("--bare", options->bare, "Write the patent's layout alone: strips of positions, and levels");
   command->add_option("--time-limit", options->time_limit_s, "Seconds after which reading a file is given up")
       ->transform(whole_number(1, 86400))

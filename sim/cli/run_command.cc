@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/device/turntable.h"
 #include "firmware/scene/camera.h"
-#include "firmware/scene/trigonometry.h"
 #include "sim/cli/camera_file.h"
 #include "sim/cli/option_values.h"
 #include "sim/cli/policy_option.h"
@@ -35,10 +35,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMostFrames = 1'000'000;
 constexpr std::uint32_t kMostThreads = 64;
-
-/// Where the picture is taken from when nobody says: a little from the right and from above.
-constexpr double kStandardAzimuth = 30 * firmware::kPi / 180;
-constexpr double kStandardElevation = 20 * firmware::kPi / 180;
 
 struct RunOptions {
   std::string rom;
@@ -83,9 +79,7 @@ class CameraPath {
 
   firmware::Camera at(std::uint32_t frame) const {
     if (!cameras_.empty()) return cameras_[std::min<std::size_t>(frame, cameras_.size() - 1)];
-    if (frames_ == 0) return firmware::view_of(bounds_, kStandardAzimuth, kStandardElevation, aspect_);
-    return firmware::orbit(bounds_, kStandardAzimuth + 2 * firmware::kPi * frame / frames_, kStandardElevation,
-                           aspect_);
+    return firmware::turntable_camera(bounds_, frame, frames_, aspect_);
   }
   float aspect() const { return aspect_; }
   std::size_t cameras() const { return cameras_.size(); }  // of the file
@@ -103,20 +97,6 @@ Rgba8 background_option(const std::string& value) {
     throw Error(ExitCode::kUsage, fmt::format("--background {}: must be RRGGBB in hexadecimal, e.g. 202428", value));
   const auto rgb = static_cast<std::uint32_t>(std::stoul(value, nullptr, 16));
   return rgba8(rgb >> 16, rgb >> 8 & 0xFF, rgb & 0xFF);
-}
-
-/// Light comes over the viewer's right shoulder and follows the camera, so that no side stays dark.
-firmware::FrameRequest request_for(const firmware::Camera& camera, float aspect,
-                                   const firmware::ThinningSettings& thinning, Rgba8 background) {
-  firmware::FrameRequest request;
-  request.model_to_clip = firmware::model_to_clip(camera, aspect);
-  const Vec3 back = normalized(camera.eye - camera.target);
-  const Vec3 right = normalized(cross(camera.up, back));
-  const Vec3 up = cross(back, right);
-  request.lighting.to_light = normalized(back + right * 0.4f + up * 0.6f);
-  request.lighting.background = background;
-  request.thinning = thinning;
-  return request;
 }
 
 firmware::ThinningSettings thinning_settings(const RunOptions& options, const PolicyOptions& policies) {
@@ -214,7 +194,9 @@ int run(const RunOptions& options) {
   {
     Progress progress("drawing", options.frames);
     for (std::uint32_t i = 0; i < options.frames; ++i, progress.step()) {
-      const Desk::Shown shown = desk.draw(request_for(path.at(i), path.aspect(), thinning, background));
+      firmware::FrameRequest request = firmware::lit_request(path.at(i), path.aspect(), background);
+      request.thinning = thinning;
+      const Desk::Shown shown = desk.draw(request);
       records.push_back(shown.record);
       if (!options.out.empty()) write_png(picture_path(options, i), shown.picture);
     }

@@ -102,6 +102,7 @@ Desk::Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::
   }
   parts_ = std::make_unique<Parts>(complete, rom, rom_name);
   firmware::InstrumentConfig instrument;
+  instrument.device.board = complete.board.name;
   instrument.device.width = complete.width;
   instrument.device.height = complete.height;
   instrument.device.pixel_format = complete.board.pixel_format;

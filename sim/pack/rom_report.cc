@@ -123,6 +123,7 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
   j["version"] = data.bare() ? json(nullptr) : json(version_of(data.bytes()));
   j["bytes"] = data.bytes().size();
   j["crc32"] = fmt::format("{:08x}", crc_of(data));
+  j["board"] = data.board().empty() ? json(nullptr) : json(std::string(data.board()));
   j["mesh_max"] = data.mesh_max();
   j["vertices"] = totals.vertices;
   j["faces"] = totals.faces;
@@ -133,9 +134,9 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
 
 std::string describe_text(const DrawingData& data, const std::string& file, const Totals& totals) {
   std::string out =
-      fmt::format("{}: {}, {} bytes, CRC-32 {:08x}, {} meshes, {} vertices, {} faces; sound\n", file,
+      fmt::format("{}: {}{}, {} bytes, CRC-32 {:08x}, {} meshes, {} vertices, {} faces; sound\n", file,
                   data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
-                  data.bytes().size(), crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
+                  data.board().empty() ? "" : fmt::format(" for board {} alone", data.board()), data.bytes().size(), crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
   out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name",
                      totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags", "colour",
                      "bounding box");

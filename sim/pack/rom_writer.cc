@@ -182,13 +182,16 @@ void write_header(Bytes& out, std::uint32_t section_count) {
 
 }  // namespace
 
-std::vector<std::byte> write_container(const Model& model) {
+std::vector<std::byte> write_container(const Model& model, const std::string& board) {
   check_mesh_count(model);
   check_size(model);
   Parts parts;
   parts.records.u32(static_cast<std::uint32_t>(model.meshes.size()));
   for (const Mesh& mesh : model.meshes) parts.add(mesh);
   parts.names.pad_to_word();
+  Bytes board_name;
+  board_name.text(board);
+  board_name.pad_to_word();
 
   struct Placed {
     format::SectionType type;
@@ -202,12 +205,14 @@ std::vector<std::byte> write_container(const Model& model) {
   Placed normals{format::SectionType::kNormals, &parts.normals, parts.normals.size()};
   Placed colours{format::SectionType::kColours, &parts.colours, parts.colours.size()};
   Placed names{format::SectionType::kNames, &parts.names, parts.names.size()};
+  Placed only_board{format::SectionType::kBoard, &board_name, board_name.size()};
 
   // Empty sections are not written; NAME is, so that a nameless mesh's name still lies somewhere.
   std::vector<Placed*> order{&records, &meshes};
   for (Placed* section : {&indices, &normals, &colours})
     if (section->size != 0) order.push_back(section);
   order.push_back(&names);
+  if (!board.empty()) order.push_back(&only_board);
   auto offset = static_cast<std::uint32_t>(sizeof(format::Header) + order.size() * sizeof(format::Section));
   for (Placed* section : order) {
     section->offset = offset;
