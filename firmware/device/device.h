@@ -40,7 +40,7 @@ struct DeviceConfig {
   std::uint32_t width = 0, height = 0;  // pixels
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
-  std::uint32_t engine_timeout_us = 5'000'000;  // for one frame's command list
+  std::uint32_t engine_timeout_us = 1'000'000;  // for one frame's command list
 };
 
 struct FrameRequest {

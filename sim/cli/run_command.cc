@@ -25,6 +25,7 @@
 #include "sim/common/standard_streams.h"
 #include "sim/desk/desk.h"
 #include "sim/desk/run_report.h"
+#include "sim/desk/scripted_pins.h"
 #include "sim/image/png.h"
 #include "sim/pack/names.h"
 
@@ -50,6 +51,8 @@ struct RunOptions {
   std::string engine = "soft";
   std::uint32_t threads = 1;
   std::string background = "202428";
+  std::string gpio;
+  std::string faults;
   std::string out;
   std::string stats;
 };
@@ -64,6 +67,8 @@ DeskConfig desk_config(const RunOptions& options) {
   }
   config.engine = options.engine == "osmesa" ? EngineKind::kOsmesa : EngineKind::kSoft;
   config.threads = options.threads;
+  if (!options.gpio.empty()) config.pins = parse_frame_script("--gpio", options.gpio, kPinNames);
+  if (!options.faults.empty()) config.fault_script = parse_frame_script("--fault", options.faults, kFaultNames);
   return config;
 }
 
@@ -159,6 +164,30 @@ void check_combinations(const RunOptions& options) {
     throw Error(ExitCode::kUsage, "--threads is for the soft engine: OSMesa takes its number from LP_NUM_THREADS");
 }
 
+/// Events that no frame of this run sees, and an ignition that stays off.
+void note_idle_scripts(const RunOptions& options, const DeskConfig& config) {
+  const auto note_late = [&](const char* option, const std::vector<FrameEvent>& events) {
+    if (!events.empty() && events.back().frame >= options.frames)
+      print_note(fmt::format("{}: frame {} is not drawn; give --frames {} or more", option, events.back().frame,
+                             std::uint64_t{events.back().frame} + 1));
+  };
+  note_late("--fault", config.fault_script);
+  if (!config.pins) return;
+  note_late("--gpio", *config.pins);
+  const bool ever_on = std::any_of(config.pins->begin(), config.pins->end(),
+                                   [](const FrameEvent& e) { return e.name == "ignition" && e.level; });
+  if (!ever_on) print_note("--gpio: the ignition is never on, so the panel stays dark; begin with 0:ignition=1");
+}
+
+/// Where VRAM is short the device draws in smaller formats than its board's.
+void note_reduced_formats(const Desk& desk, const BoardDescription& board) {
+  const firmware::VramLayout& vram = desk.vram();
+  const bool pixels = vram.scanout.format != board.pixel_format, depth = vram.depth_format != board.depth_format;
+  if (pixels || depth)
+    print_note(fmt::format("VRAM is short: drawn {}with 16 bits of depth; choose a larger --board or a smaller --size",
+                           pixels ? "in RGB565, " : ""));
+}
+
 /// Says which options are in order but change nothing, so that nobody waits for what they should do.
 void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const PolicyOptions& policies,
                              const CameraPath& path) {
@@ -187,6 +216,8 @@ int run(const RunOptions& options) {
   const firmware::ThinningSettings thinning = thinning_settings(options, policies);
   const CameraPath path(options, desk);
   prepare_outputs(options);
+  note_idle_scripts(options, config);
+  note_reduced_formats(desk, config.board);
   note_what_has_no_effect(options, desk, policies, path);
   if (!options.out.empty()) note_older_pictures(options);
 
@@ -248,6 +279,14 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->transform(whole_number(1, kMostThreads))
       ->capture_default_str();
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
+  command->add_option("--gpio", options->gpio,
+                      "Pins by frame, FRAME:NAME=0|1,…: ignition, mode (a button: full, thinned, budget); low until set. "
+                      "Without it the ignition is on")
+      ->type_name("0:ignition=1,…");
+  command->add_option("--fault", options->faults,
+                      "Faults by frame, likewise: engine-hang, slow-bus. The device then shows its safe picture and "
+                      "the run goes on")
+      ->type_name("60:engine-hang=1,…");
   command->add_option("--out", options->out,
                       "Folder for a PNG per frame, frame-0000.png and so on, as the panel showed it; "
                       "pictures of an earlier, longer run stay and are told of");

@@ -23,9 +23,6 @@ namespace {
 constexpr std::size_t kEngineWorkBytes = std::size_t{256} << 20;
 /// The panel has the picture within two frames of the flip; more means that its signal broke down.
 constexpr std::uint64_t kFramesToWait = 4;
-/// What "slow-bus" leaves of the display's bandwidth: too little for a whole picture at any size, enough for the safe
-/// one.
-constexpr double kSlowBus = 64;
 /// Steps of virtual time in which the desk looks at the panel, per frame.
 constexpr std::uint64_t kLooksPerFrame = 64;
 
@@ -68,6 +65,7 @@ struct Desk::Parts {
                     .vram_bytes = static_cast<std::uint32_t>(machine.vram().size())},
                    pins) {}
 
+  double starving_slowdown() const;
   void inject_faults(std::uint32_t frame);
   void await_panel(std::uint32_t frame);
 
@@ -122,6 +120,15 @@ const firmware::DrawingData& Desk::drawing_data() const { return device().drawin
 const Machine& Desk::machine() const { return parts_->machine; }
 const firmware::Device& Desk::device() const { return parts_->instrument.device(); }
 
+/// How much slower the display's bus must be to give half of what the lines of a whole picture take: too little for
+/// the picture, enough for the safe one, which is at most two fifths as wide.
+double Desk::Parts::starving_slowdown() const {
+  const Scanout& scanout = instrument.device().vram().scanout;
+  const double line_s = static_cast<double>(mode.line_pixels()) / mode.pixel_clock_hz();
+  const double needed = scanout.width * command::bytes_per_pixel(scanout.format) / line_s;
+  return static_cast<double>(config.board.bus_bytes_per_second) / (needed / 2);
+}
+
 /// Faults are in order of frames.
 void Desk::Parts::inject_faults(std::uint32_t frame) {
   Faults& faults = config.faults;
@@ -129,7 +136,7 @@ void Desk::Parts::inject_faults(std::uint32_t frame) {
   for (; next_fault < config.fault_script.size() && config.fault_script[next_fault].frame <= frame; ++next_fault) {
     const FrameEvent& event = config.fault_script[next_fault];
     if (event.name == "engine-hang") faults.engine_hangs = event.level;
-    else faults.bus_slowdown = event.level ? kSlowBus : 1;
+    else faults.bus_slowdown = event.level ? starving_slowdown() : 1;
   }
   if (next_fault != before) machine.inject(faults);
 }

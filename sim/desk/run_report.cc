@@ -41,6 +41,11 @@ ordered_json frame_json(const FrameRecord& f) {
   const firmware::ThinningReport& t = f.firmware.thinning;
   return {{"frame", f.frame},
           {"crc32", fmt::format("{:08x}", f.crc32)},
+          {"shown", firmware::shown_name(f.shown)},
+          {"mode", firmware::draw_mode_name(f.mode)},
+          {"backlight", f.backlight},
+          {"wake_ms", f.wake_ms},
+          {"fault", f.fault},
           {"meshes_in", t.meshes_in},
           {"meshes_out", t.meshes_out},
           {"faces_in", t.faces_in},
@@ -61,6 +66,26 @@ ordered_json frame_json(const FrameRecord& f) {
             {"meshes_dropped", t.meshes_dropped},
             {"quota_halvings", t.quota_halvings},
             {"max_error", t.max_error}}}};
+}
+
+/// One line for every frame in which the instrument changed what it shows, where it ever did.
+std::string pins_text(std::span<const FrameRecord> frames) {
+  const auto same = [](const FrameRecord& a, const FrameRecord& b) {
+    return a.shown == b.shown && a.mode == b.mode && a.backlight == b.backlight && a.fault == b.fault;
+  };
+  const bool any = std::any_of(frames.begin(), frames.end(), [&](const FrameRecord& f) {
+    return !same(f, frames.front()) || f.shown != firmware::Shown::kPicture;
+  });
+  std::string text;
+  for (std::size_t i = 0; any && i < frames.size(); ++i) {
+    const FrameRecord& f = frames[i];
+    if (i > 0 && same(f, frames[i - 1])) continue;
+    text += fmt::format("  frame {:<5} {}, mode {}, backlight {}", f.frame, firmware::shown_name(f.shown),
+                        firmware::draw_mode_name(f.mode), f.backlight ? "on" : "off");
+    if (f.wake_ms > 0) text += fmt::format(", {:.2f} ms after ignition", f.wake_ms);
+    text += f.fault.empty() ? "\n" : fmt::format(" ({})\n", f.fault);
+  }
+  return text;
 }
 
 }  // namespace
@@ -90,7 +115,9 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
     longest_thin_ms = std::max(longest_thin_ms, f.thin_ms);
   }
   const auto count = static_cast<double>(frames.size());
-  const FrameRecord& last = frames.back();
+  const auto drawn = std::find_if(frames.rbegin(), frames.rend(),
+                                  [](const FrameRecord& f) { return f.shown == firmware::Shown::kPicture; });
+  const FrameRecord& last = drawn != frames.rend() ? *drawn : frames.back();
   const firmware::ThinningReport& t = last.firmware.thinning;
   text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
   text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
@@ -104,7 +131,8 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
                       static_cast<double>(summary.memory.ram_peak_bytes) / 1e3,
                       static_cast<double>(summary.memory.vram_bytes) / 1e3,
                       static_cast<double>(summary.memory.rom_bytes) / 1e3);
-  text += fmt::format("  CRC-32  {:08x} (last frame)\n", last.crc32);
+  text += fmt::format("  CRC-32  {:08x} (last frame)\n", frames.back().crc32);
+  text += pins_text(frames);
   if (t.quotas_missed > 0)
     text += fmt::format(
         "  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or "

@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::size_t kMiB = std::size_t{1} << 20;
 
-constexpr std::array<BoardDescription, 2> kBoards{{
+constexpr std::size_t kKiB = 1024;
+
+constexpr std::array<BoardDescription, 5> kBoards{{
     {.name = "host-sim",
      .ram_bytes = 512 * kMiB,
      .vram_bytes = 64 * kMiB,
@@ -32,6 +34,41 @@ constexpr std::array<BoardDescription, 2> kBoards{{
      .height = 272,
      .pixel_format = command::PixelFormat::kRgb565,
      .depth_format = command::DepthFormat::kUnorm16},
+    // Those of boards/: what their firmware gets of memory, and their panel. The clocks are those of the parts named in
+    // their READMEs, for which the cost model is no forecast.
+    {.name = "cortex-m7",
+     .ram_bytes = 320 * kKiB,  // of 640
+     .vram_bytes = 4 * kMiB,
+     .cpu_hz = 320'000'000,
+     .engine_hz = 100'000'000,
+     .bus_bytes_per_second = 400'000'000,
+     .display_fifo_bytes = 2048,
+     .width = 480,
+     .height = 272,
+     .pixel_format = command::PixelFormat::kRgb565,
+     .depth_format = command::DepthFormat::kUnorm16},
+    {.name = "cortex-a9",
+     .ram_bytes = 8 * kMiB,
+     .vram_bytes = 8 * kMiB,
+     .cpu_hz = 533'000'000,
+     .engine_hz = 133'000'000,
+     .bus_bytes_per_second = 1'066'000'000,
+     .display_fifo_bytes = 4096,
+     .width = 800,
+     .height = 480,
+     .pixel_format = command::PixelFormat::kXrgb8888,
+     .depth_format = command::DepthFormat::kUnorm24},
+    {.name = "linux-arm64",
+     .ram_bytes = 32 * kMiB,
+     .vram_bytes = 16 * kMiB,
+     .cpu_hz = 650'000'000,
+     .engine_hz = 200'000'000,
+     .bus_bytes_per_second = 2'132'000'000,
+     .display_fifo_bytes = 8192,
+     .width = 800,
+     .height = 480,
+     .pixel_format = command::PixelFormat::kXrgb8888,
+     .depth_format = command::DepthFormat::kUnorm24},
 }};
 
 }  // namespace
