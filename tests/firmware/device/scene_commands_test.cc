@@ -147,7 +147,7 @@ TEST(VramLayout, SaysHowManyBytesAreMissing) {
                                           command::DepthFormat::kUnorm24);
   EXPECT_EQ(layout.status().code, StatusCode::kResourceExhausted);
   EXPECT_EQ(layout.status().where, 2u * 128 * 4096 + 1920 * 272);  // 1920 * 272 bytes are 127.5 pages
-  for (const auto [width, height] : {std::pair{0u, 272u}, {4097u, 1u}})
+  for (const auto& [width, height] : {std::pair{0u, 272u}, {4097u, 1u}})
     EXPECT_EQ(firmware::plan_vram(0x1000, 0xFFFFFFFF, picture_of(width, height, command::PixelFormat::kRgb565),
                                   command::DepthFormat::kNone)
                   .status()
