@@ -85,6 +85,8 @@ void Instrument::show_fault(const Status& fault, StepReport& report) {
   safe_since_ns_ = clock_.now_ns();
   if (device_.show_safe_picture().ok()) {
     report.shown = Shown::kSafePicture;
+    // The broken picture was sent until now; what it did to the display is told already.
+    static_cast<void>(display_.check());
     if (light(report).ok()) return;
   }
   // Not even the safe picture reaches the panel: nothing is better than something wrong.
