@@ -15,6 +15,7 @@ ALLOWED = {
     "hal/include": HAL_BASE + [HAL + "hal/clock.h", HAL + "hal/display.h", HAL + "hal/pins.h"],
     "hal/include/hal/drivers": [HAL],
     "hal": ["hal/"],
+    "hal/linux": ["hal/", HOSTED],
     "firmware": [HAL, "firmware/"],
     "gfx_subsystem": HAL_BASE + ["gfx_subsystem/register_file.h"],
     "gfx_subsystem/engine": HAL_BASE + ["gfx_subsystem/engine/", "gfx_subsystem/register_file.h"],

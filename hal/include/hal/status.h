@@ -18,7 +18,7 @@ enum class StatusCode : std::uint8_t {
   kFailedPrecondition // called in a state that does not allow it
 };
 
-/// Never owns memory: `message` points to a string literal.
+/// Never owns memory: `message` points to a string literal, or to text that its driver keeps until its next error.
 struct [[nodiscard]] Status {
   StatusCode code = StatusCode::kOk;
   const char* message = "";  ///< what is wrong and what to do, without a trailing period
