@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building needs: `install.sh` for the simulator, `install.sh tests` for the tests and
-# benchmarks as well. Says what it installs; does nothing where all is there.
+# benchmarks as well, `install.sh boards` for the boards on QEMU. Says what it installs; does nothing where all is there.
 set -euo pipefail
 
 packages=(g++ cmake make libfmt-dev libcli11-dev nlohmann-json3-dev libassimp-dev libtinygltf-dev libpng-dev libosmesa6-dev
@@ -8,6 +8,10 @@ packages=(g++ cmake make libfmt-dev libcli11-dev nlohmann-json3-dev libassimp-de
 if [ "${1:-}" = tests ]; then
   packages+=(clang libclang-rt-14-dev libgtest-dev libgmock-dev libbenchmark-dev libmeshoptimizer-dev xz-utils binutils python3
              pkg-config libgpiod-dev libdrm-dev)
+fi
+if [ "${1:-}" = boards ]; then
+  packages+=(python3 libgtest-dev libgmock-dev gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
+             g++-aarch64-linux-gnu qemu-system-arm qemu-user-static cpio kmod xz-utils libgpiod-dev:arm64 libdrm-dev:arm64)
 fi
 
 missing=()
@@ -25,6 +29,12 @@ if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || { echo "install.sh: run as root, or install by hand: ${missing[*]}" >&2; exit 1; }
   as_root=(sudo)
 fi
+# Libraries of another architecture come only where dpkg knows of it.
+for package in "${missing[@]}"; do
+  [[ $package == *:arm64 ]] || continue
+  "${as_root[@]}" dpkg --add-architecture arm64
+  break
+done
 echo "Installing Debian packages: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
