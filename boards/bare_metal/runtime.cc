@@ -33,6 +33,12 @@ void* operator new(std::size_t) { trap("operator new: there is no heap", USUZUMI
 void* operator new[](std::size_t) { trap("operator new[]: there is no heap", USUZUMI_CALLER); }
 void* operator new(std::size_t, std::align_val_t) { trap("operator new: there is no heap", USUZUMI_CALLER); }
 void* operator new[](std::size_t, std::align_val_t) { trap("operator new[]: there is no heap", USUZUMI_CALLER); }
+void* operator new(std::size_t, const std::nothrow_t&) noexcept {
+  trap("operator new: there is no heap", USUZUMI_CALLER);
+}
+void* operator new[](std::size_t, const std::nothrow_t&) noexcept {
+  trap("operator new[]: there is no heap", USUZUMI_CALLER);
+}
 // A class with a virtual destructor names these in its table; only a heap would call them.
 void operator delete(void*) noexcept { trap("operator delete: there is no heap", USUZUMI_CALLER); }
 void operator delete[](void*) noexcept { trap("operator delete[]: there is no heap", USUZUMI_CALLER); }

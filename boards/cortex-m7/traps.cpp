@@ -1,0 +1,70 @@
+// Does on demand what a program must not do, so that a test can see it caught: the command line names the deed.
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <new>
+#include <string_view>
+
+#include "boards/bare_metal/semihosting.h"
+#include "boards/cortex-m7/memory_map.h"
+
+namespace deeds {  // not hidden in this file: the compiler would see that no class but Derived is there to call
+
+/// Calls what no class has written yet.
+struct Base {
+  Base() { call(*this); }
+  [[gnu::noipa]] static void call(Base& base) { base.pure(); }
+  virtual void pure() = 0;
+
+ protected:
+  ~Base() = default;
+};
+struct Derived final : Base {
+  void pure() override {}
+};
+
+}  // namespace deeds
+
+namespace {
+
+using namespace usuzumi::boards;
+
+volatile std::uint32_t g_zero = 0;  // unknown to the compiler
+volatile std::uint32_t g_result = 0;
+void* volatile g_pointer = nullptr;
+
+volatile std::uint32_t* pointer_to(std::uintptr_t address) {
+  return reinterpret_cast<volatile std::uint32_t*>(address + g_zero);
+}
+
+[[gnu::noinline]] std::uint32_t endless(std::uint32_t depth) {
+  if (depth == g_zero - 1) return depth;  // four thousand million calls from here
+  volatile std::uint32_t frame[64] = {};
+  frame[depth % 64] = depth;
+  return endless(depth + 1) + frame[(depth + 1) % 64];
+}
+
+bool commit(std::string_view deed) {
+  if (deed == "read-null") g_result = *pointer_to(0);
+  else if (deed == "write-code") *pointer_to(0x400) = 1;
+  else if (deed == "write-rom") *pointer_to(reinterpret_cast<std::uintptr_t>(__rom_start)) = 1;
+  else if (deed == "leave-memory") *pointer_to(0x50000000) = 1;
+  else if (deed == "divide-by-zero") g_result = (g_zero + 100) / g_zero;
+  else if (deed == "overflow-stack") g_result = endless(g_zero);
+  else if (deed == "new") g_pointer = ::operator new(g_zero + 4);
+  else if (deed == "assert") assert(g_zero == 1);
+  else if (deed == "index") g_result = std::array{1u, 2u, 3u}.at(g_zero + 3);
+  else if (deed == "pure-virtual") deeds::Derived{};
+  else return false;
+  return true;
+}
+
+}  // namespace
+
+int main() {
+  char buffer[256];
+  std::string_view deed = semihosting::command_line(buffer);
+  deed.remove_prefix(deed.rfind(' ') + 1);
+  semihosting::print(commit(deed) ? "nothing has stopped it\n" : "no such deed\n");
+  return 0;
+}
