@@ -20,7 +20,9 @@ import traceback
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "boards"
-BOARDS = ["cortex-m7", "cortex-a9", "linux-arm64"]
+BOARDS = {name: ROOT / "boards" / name for name in ("cortex-m7", "cortex-a9", "linux-arm64")}
+BOARDS["minimal"] = ROOT / "tests/boards/minimal"  # what a port takes at least; it has no player of goldens
+SIMULATED_AS = {"minimal": "cortex-m7"}            # the simulator's board with its picture
 MODEL = pathlib.Path("/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf")
 SIDECAR = ROOT / "sim/demo/CesiumMilkTruck.json"
 BUILD_TIMEOUT_S = 1800
@@ -82,7 +84,8 @@ class Context:
         out.mkdir(parents=True, exist_ok=True)
         for old in out.glob("frame-*.png"):
             old.unlink()
-        run_command([self.usuzumi, "run", rom or self.rom, "--board", self.board, "--frames", frames, "--orbit",
+        simulated = SIMULATED_AS.get(self.board, self.board)
+        run_command([self.usuzumi, "run", rom or self.rom, "--board", simulated, "--frames", frames, "--orbit",
                      "--out", out, "--stats", stats, *arguments])
         records = json.loads(stats.read_text())["frames"]
         for record in records:
@@ -110,7 +113,7 @@ def prepare_host(host):
 
 
 def load_runner(board):
-    path = ROOT / "boards" / board / "run.py"
+    path = BOARDS[board] / "run.py"
     spec = importlib.util.spec_from_file_location(f"boards_{board.replace('-', '_')}", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -120,12 +123,12 @@ def load_runner(board):
 def run_board(board, host):
     """The row of the table. BoardFailure, or what the board's run.py raises, where anything differs."""
     start = time.monotonic()
-    build(BUILD / board, ["--toolchain", ROOT / "boards" / board / "board.cmake", f"-DUSUZUMI_BOARD={board}",
+    build(BUILD / board, ["--toolchain", BOARDS[board] / "board.cmake", f"-DUSUZUMI_BOARD={BOARDS[board]}",
                           "-DUSUZUMI_SIM=OFF", "-DUSUZUMI_TESTS=OFF", "-DUSUZUMI_WERROR=ON"])
     built = time.monotonic()
     context = Context(board, host)
     result = load_runner(board).run(context)
-    if context.golden_lines == 0:
+    if context.golden_lines == 0 and board != "minimal":
         raise BoardFailure(f"{board}: the goldens were not compared")
     return {"built_s": built - start, "ran_s": time.monotonic() - built, "golden": context.golden_lines, **result}
 

@@ -9,8 +9,8 @@ import sys
 
 root = pathlib.Path(sys.argv[1])
 limit = int(re.search(r"ColumnLimit: (\d+)", (root / ".clang-format").read_text()).group(1))
-sources = [path for folder in ("firmware", "gfx_subsystem", "hal", "sim", "tests")
-           for path in sorted((root / folder).rglob("*")) if path.suffix in (".cc", ".h")]
+sources = [path for folder in ("boards", "firmware", "gfx_subsystem", "hal", "sim", "tests")
+           for path in sorted((root / folder).rglob("*")) if path.suffix in (".cc", ".cpp", ".h")]
 long_lines = [f"{path.relative_to(root)}:{number}: {len(line)} columns"
               for path in sources for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
               if len(line) > limit]
