@@ -50,14 +50,18 @@ void append_status(TextLine& line, const Status& status) {
   line.text(status.message).text(" ").number(status.where);
 }
 
+std::uint32_t depth_bits(command::DepthFormat format) {
+  return format == command::DepthFormat::kUnorm24 ? 24 : format == command::DepthFormat::kUnorm16 ? 16 : 0;
+}
+
 void print_boot(Board& board, const firmware::Device& device, const RunConfig& config) {
   const firmware::VramLayout& vram = device.vram();
   const Scanout& scanout = vram.scanout;
   const bool rgb565 = scanout.format == command::PixelFormat::kRgb565;
   TextLine line;
   line.text("boot ").number(scanout.width).text("x").number(scanout.height);
-  line.text(rgb565 ? " rgb565" : " xrgb8888").text(" depth=").number(8u * command::bytes_per_depth(vram.depth_format));
-  line.text(" ram=").number(device.ram_peak_bytes()).text(" vram=").number(vram.used_bytes);
+  line.text(rgb565 ? " rgb565" : " xrgb8888").text(" depth=").number(depth_bits(vram.depth_format));
+  line.text(" vram=").number(vram.used_bytes);
   const firmware::DeviceConfig& wanted = config.instrument.device;
   if (scanout.format != wanted.pixel_format) line.text(" reduced to rgb565: VRAM is short");
   else if (vram.depth_format != wanted.depth_format) line.text(" depth reduced: VRAM is short");
@@ -80,6 +84,7 @@ void print_step(Board& board, const Parts& parts, std::uint32_t frame, const fir
   line.text(" crc32=").hex(shown_crc32(parts.instrument.device(), parts.bus));
   line.text(" meshes=").number(t.meshes_in).text("->").number(t.meshes_out);
   line.text(" faces=").number(t.faces_in).text("->").number(t.faces_out).text(" drawn=").number(f.faces_drawn);
+  line.text(" ram=").number(parts.instrument.device().ram_peak_bytes());
   line.text(" thin_us=").number(f.thin_ns / 1000).text(" draw_us=").number(f.draw_ns / 1000);
   if (t.meshes_dropped > 0) line.text(" dropped=").number(t.meshes_dropped);
   if (t.quota_halvings > 0) line.text(" halvings=").number(t.quota_halvings);

@@ -36,7 +36,7 @@ struct DevicePorts {
 };
 
 struct DeviceConfig {
-  std::string_view board;               // its name: drawing data packed for another are refused
+  std::string_view board = {};          // its name: drawing data packed for another are refused
   std::uint32_t width = 0, height = 0;  // pixels
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;

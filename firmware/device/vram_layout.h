@@ -18,9 +18,9 @@ struct VramLayout {
   std::uint32_t used_bytes = 0;
 };
 
-/// Places the pictures, each at a multiple of Display::kPictureAlignment, and the depth. `width`, `height`, `format` and
-/// `stride_bytes` of `wanted` are the caller's. `base` is a multiple of kPictureAlignment. kResourceExhausted with the
-/// bytes needed in `where`.
+/// Places the pictures, each at a multiple of Display::kPictureAlignment, and the depth. All of `wanted` but the
+/// pictures' addresses is the caller's. `base` is a multiple of kPictureAlignment. kResourceExhausted with the bytes
+/// needed in `where`.
 Result<VramLayout> plan_vram(BusAddress base, std::uint32_t bytes, const Scanout& wanted, command::DepthFormat depth);
 
 }  // namespace usuzumi::firmware

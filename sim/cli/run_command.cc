@@ -280,8 +280,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--background", options->background, "Colour behind the model, RRGGBB")->capture_default_str();
   command->add_option("--gpio", options->gpio,
-                      "Pins by frame, FRAME:NAME=0|1,…: ignition, mode (a button: full, thinned, budget); low until set. "
-                      "Without it the ignition is on")
+                      "Pins by frame, FRAME:NAME=0|1,…: ignition, mode (a button: full, thinned, budget); low until "
+                      "set. Without it the ignition is on")
       ->type_name("0:ignition=1,…");
   command->add_option("--fault", options->faults,
                       "Faults by frame, likewise: engine-hang, slow-bus. The device then shows its safe picture and "

@@ -43,8 +43,9 @@ std::vector<FrameEvent> parse_frame_script(const std::string& option, std::strin
       events.push_back(event);
       continue;
     }
-    throw Error(ExitCode::kUsage, fmt::format("{} {}: '{}' must be FRAME:NAME=0 or =1, e.g. {}:{}=1, with NAME one of {}",
-                                              option, text, part, 120, names.front(), fmt::join(names, ", ")));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: '{}' must be FRAME:NAME=0 or =1, e.g. 120:{}=1, with NAME one of {}", option, text,
+                            part, names.front(), fmt::join(names, ", ")));
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const FrameEvent& a, const FrameEvent& b) { return a.frame < b.frame; });

@@ -16,14 +16,14 @@ struct RunSummary {
   Desk::Memory memory;
 };
 
-/// {"rom", "board", "engine", "width", "height", "ram_peak_bytes", "vram_bytes", "rom_bytes", "frames": [...]}; each
+/// {"rom", "board", "engine", "width", "height", "ram_peak_bytes", "vram_bytes", "rom_bytes", "frames": [...]}. Each
 /// frame has crc32 (eight hexadecimal digits), shown (picture, dark, safe), mode (full, thinned, budget), backlight,
-/// wake_ms (from ignition to light, in the frame that lit it), fault (why it is not the picture), meshes_in, meshes_out,
-/// faces_in, faces_thinned, faces_drawn, engine_cycles, thin_ms, draw_ms, scanout_ms (virtual time), host_ms, and thinning: why it ran or did not (cause),
-/// what it decided for how many meshes and why it keeps them (decisions: deleted, collapsed, points, lines,
-/// kept_by_level, kept_level_unset, kept_thinning_off, kept_above_area, kept_not_chosen, kept_telltale), and what it
-/// did in this frame: meshes_built, meshes_collapsed, quotas_missed, meshes_unthinned, meshes_dropped, quota_halvings,
-/// max_error.
+/// wake_ms (from ignition to light, in the frame that lit it), fault (why it is not the picture), meshes_in,
+/// meshes_out, faces_in, faces_thinned, faces_drawn, engine_cycles, thin_ms, draw_ms, scanout_ms (virtual time),
+/// host_ms, and thinning: why it ran or did not (cause), what it decided for how many meshes and why it keeps them
+/// (decisions: deleted, collapsed, points, lines, kept_by_level, kept_level_unset, kept_thinning_off, kept_above_area,
+/// kept_not_chosen, kept_telltale), and what it did in this frame: meshes_built, meshes_collapsed, quotas_missed,
+/// meshes_unthinned, meshes_dropped, quota_halvings, max_error.
 std::string run_report_json(const RunSummary& summary, std::span<const FrameRecord> frames);
 
 /// A few lines for a person.

@@ -136,7 +136,8 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
   std::string out =
       fmt::format("{}: {}{}, {} bytes, CRC-32 {:08x}, {} meshes, {} vertices, {} faces; sound\n", file,
                   data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
-                  data.board().empty() ? "" : fmt::format(" for board {} alone", data.board()), data.bytes().size(), crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
+                  data.board().empty() ? "" : fmt::format(" for board {} alone", data.board()), data.bytes().size(),
+                  crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
   out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name",
                      totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags", "colour",
                      "bounding box");
