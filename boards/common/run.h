@@ -30,9 +30,9 @@ int exit_code_of(const Status& status);
 ///   frame 3 picture thinned light=1 crc32=1a2b3c4d meshes=5->4 faces=3624->2002 drawn=1513 ram=227012 thin_us=0
 ///   draw_us=1460
 ///
-/// in one line; ram is the most that was in use so far. Then, where it applies, dropped=2 halvings=1 (RAM was short), wake_us=33412 (ignition to light) and fault="...".
-/// Before the first frame: "boot 800x480 xrgb8888 depth=24 vram=4608000", where VRAM was short with what was
-/// reduced. A boot that fails: "error: ..." and the exit code; the safe picture is then shown if the display works and
+/// in one line; ram is the most that was in use so far. Then, where it applies, dropped=2 halvings=1 (RAM was short),
+/// wake_us=33412 (ignition to light) and fault="...". Before the first frame: "boot 800x480 xrgb8888 depth=24
+/// vram=4608000", where VRAM was short with what was reduced. A boot that fails: "error: ..." and the exit code; the safe picture is then shown if the display works and
 /// the ignition is on, and step_done() called once, so that a test can see it.
 int run(Board& board, const BoardMemory& memory, const RunConfig& config);
 
