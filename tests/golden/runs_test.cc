@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <ostream>
-#include <string_view>
 
+#include "tests/golden/board_budget.h"
 #include "tests/golden/golden_check.h"
 #include "tests/golden/golden_fixture.h"
 
@@ -53,25 +53,28 @@ TEST_P(GoldenRun, EveryRouteGivesTheSamePicture) {
 INSTANTIATE_TEST_SUITE_P(Runs, GoldenRun, ::testing::ValuesIn(all_runs().begin(), all_runs().end()),
                          test_name<DeviceRun>);
 
-/// What a board gives the runs, as boards/ divides its memory.
-struct BoardMemory {
-  const char* board;
-  std::size_t ram_bytes, vram_bytes;
-};
-constexpr BoardMemory kBoards[] = {{"cortex-m7", 320 * 1024, 4 * 1024 * 1024}};
-
 TEST(GoldenRuns, AreNotOnBoardsThatAreTooSmallAndOnAllOthers) {
   for (const DeviceRun& run : all_runs()) {
     const sim::Desk::Memory needed = draw_run(run).memory;
-    for (const BoardMemory& memory : kBoards) {
+    for (const BoardBudget& budget : kBoardBudgets) {
       const bool excluded = std::any_of(run.not_on.begin(), run.not_on.end(),
-                                        [&](const NotOn& n) { return std::string_view(n.board) == memory.board; });
-      const bool fits = needed.ram_peak_bytes <= memory.ram_bytes && needed.vram_bytes <= memory.vram_bytes;
+                                        [&](const NotOn& n) { return n.board == budget.board; });
+      const bool fits = needed.ram_peak_bytes <= budget.ram_bytes && needed.vram_bytes <= budget.vram_bytes;
       EXPECT_EQ(excluded, !fits) << run.name << " takes " << needed.ram_peak_bytes << " bytes of RAM, "
-                                 << needed.vram_bytes << " of VRAM; " << memory.board << " has " << memory.ram_bytes
-                                 << " and " << memory.vram_bytes;
-      EXPECT_TRUE(excluded || run.board.ram_bytes <= memory.ram_bytes) << run.name << " asks for more than it needs";
+                                 << needed.vram_bytes << " of VRAM; " << budget.board << " has " << budget.ram_bytes
+                                 << " and " << budget.vram_bytes;
+      EXPECT_TRUE(excluded || run.board.ram_bytes <= budget.ram_bytes) << run.name << " asks for more than it needs";
     }
+  }
+}
+
+TEST(GoldenRuns, BoardsHaveTheMemoryThatTheDeskGivesThem) {
+  for (const BoardBudget& budget : kBoardBudgets) {
+    if (budget.board == "host") continue;
+    const sim::BoardDescription* board = sim::find_board(budget.board);
+    ASSERT_NE(board, nullptr) << budget.board;
+    EXPECT_EQ(budget.ram_bytes, board->ram_bytes) << budget.board;
+    EXPECT_EQ(budget.vram_bytes, board->vram_bytes) << budget.board;
   }
 }
 

@@ -32,13 +32,15 @@ ALLOWED = {
     "sim": [HAL, "firmware/", "gfx_subsystem/", "sim/", HOSTED],
     "boards": BOARD,
     "boards/linux-arm64": BOARD + ["hal/linux/", HOSTED],
+    "tests/golden/player": [HAL, "firmware/", "gfx_subsystem/engine/", "gfx_subsystem/engine_soft/", "boards/common/",
+                            "tests/golden/player/"],
 }
 # What runs on the device uses only these of the standard library: nothing that allocates, throws or needs an OS.
 FREESTANDING = {
     "algorithm", "array", "atomic", "bit", "cmath", "concepts", "cstddef", "cstdint", "cstring", "limits", "new",
     "span", "string_view", "type_traits", "utility", "charconv", "immintrin.h", "arm_neon.h", "tuple", "iterator", "numeric",
 }
-FOLDERS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "boards/")
+FOLDERS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "boards/", "tests/golden/player/")
 OURS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "tests/", "boards/")
 
 

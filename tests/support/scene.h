@@ -1,6 +1,7 @@
 // The numbered golden scenes: each a picture that an engine draws from command lists, small enough to keep as PNG.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -35,6 +36,22 @@ std::span<const Scene> all_scenes();
 /// Five and six bits become eight by repeating the upper ones below, as the display controller sends them.
 sim::Image picture_of(const TargetSpec& target, std::uint32_t stride_bytes, std::span<const std::byte> colour_plane);
 
+/// One plane's place in VRAM.
+struct Plane {
+  std::size_t offset = 0, bytes = 0;
+  std::uint32_t stride = 0, row_bytes = 0;  // bytes; all zero where there is no such plane
+};
+
+/// A scene as an engine gets it: what lies in RAM from SceneMemory::kRamBase on, the command lists, and where in VRAM
+/// they draw.
+struct SceneRecording {
+  std::vector<std::byte> ram;
+  std::vector<std::vector<std::uint32_t>> lists;
+  Plane colour, depth;
+  std::size_t vram_bytes = 0;
+  std::uint32_t background_pixel = 0;  // what every pixel holds before the first list
+};
+
 struct SceneDrawing {
   Status status;
   sim::Image picture;
@@ -47,8 +64,10 @@ inline constexpr Rgba8 kBackground = rgba8(24, 28, 36);
 /// Differs from kBackground in every channel, in 16 bits too.
 inline constexpr Rgba8 kOtherBackground = rgba8(230, 226, 219);
 
-/// Draws the scene in fresh memory. VRAM's pixels are `background` at first, and so is what the scene clears to unless
-/// the clear is what it shows: pixels equal over two backgrounds are those the scene covers.
+/// VRAM's pixels are `background` at first, and so is what the scene clears to unless the clear is what it shows:
+/// pixels equal over two backgrounds are those the scene covers.
+SceneRecording record_scene(const Scene& scene, Rgba8 background = kBackground);
+/// Draws the scene in fresh memory.
 SceneDrawing draw_scene(const Scene& scene, gfx::Engine& engine, Rgba8 background = kBackground);
 
 }  // namespace usuzumi::scenes

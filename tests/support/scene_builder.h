@@ -55,6 +55,8 @@ class SceneBuilder {
 
   /// Ends the last list; all of them, in order.
   std::vector<std::vector<std::uint32_t>> finish();
+  /// Bytes of RAM stored so far.
+  std::size_t ram_used() const { return ram_used_; }
 
  private:
   BusAddress store_bytes(std::span<const std::byte> bytes);

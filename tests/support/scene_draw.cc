@@ -1,4 +1,5 @@
 // Runs a scene on an engine and watches what it does to VRAM.
+#include <algorithm>
 #include <cstring>
 
 #include "tests/support/scene.h"
@@ -22,27 +23,10 @@ std::uint32_t pixel_bits(PixelFormat format, Rgba8 c) {
   return 0xFF000000u | c.r() << 16 | c.g() << 8 | c.b();
 }
 
-// One plane's place in VRAM.
-struct Plane {
-  std::size_t offset = 0, bytes = 0;
-  std::uint32_t stride = 0, row_bytes = 0;
-};
-
-struct Layout {
-  Plane colour, depth;
-  std::size_t vram_bytes = 0;
-
-  explicit Layout(const TargetSpec& t) {
-    colour = place(kGuardBytes, t.width * bytes_per_pixel(t.format), t);
-    depth = place(colour.offset + colour.bytes + kGuardBytes, t.width * bytes_per_depth(t.depth), t);
-    vram_bytes = depth.offset + depth.bytes + kGuardBytes;
-  }
-
-  static Plane place(std::size_t offset, std::uint32_t row_bytes, const TargetSpec& t) {
-    const std::uint32_t stride = row_bytes == 0 ? 0 : round_up4(row_bytes) + t.row_padding_bytes;
-    return {offset, std::size_t{stride} * t.height, stride, row_bytes};
-  }
-};
+Plane place(std::size_t offset, std::uint32_t row_bytes, const TargetSpec& t) {
+  const std::uint32_t stride = row_bytes == 0 ? 0 : round_up4(row_bytes) + t.row_padding_bytes;
+  return {offset, std::size_t{stride} * t.height, stride, row_bytes};
+}
 
 // Calls visit(first byte, bytes) for each row's pixels.
 template <class Visit>
@@ -51,20 +35,19 @@ void for_each_row(const Plane& plane, std::uint32_t height, Visit visit) {
     visit(plane.offset + std::size_t{y} * plane.stride, plane.row_bytes);
 }
 
-void fill_background(std::span<std::byte> vram, const Layout& layout, const TargetSpec& t, Rgba8 background) {
-  const std::uint32_t bits = pixel_bits(t.format, background);
+void fill_background(std::span<std::byte> vram, const SceneRecording& scene, const TargetSpec& t) {
   const std::uint32_t size = bytes_per_pixel(t.format);
-  for_each_row(layout.colour, t.height, [&](std::size_t at, std::uint32_t bytes) {
-    for (std::uint32_t i = 0; i < bytes; i += size) std::memcpy(&vram[at + i], &bits, size);
+  for_each_row(scene.colour, t.height, [&](std::size_t at, std::uint32_t bytes) {
+    for (std::uint32_t i = 0; i < bytes; i += size) std::memcpy(&vram[at + i], &scene.background_pixel, size);
   });
 }
 
-bool outside_pixels_untouched(std::vector<std::byte> vram, const Layout& layout, const TargetSpec& t) {
+bool outside_pixels_untouched(std::vector<std::byte> vram, const SceneRecording& scene, const TargetSpec& t) {
   const auto forgive = [&](std::size_t at, std::uint32_t bytes) {
     std::memset(&vram[at], static_cast<int>(kUntouched), bytes);
   };
-  for_each_row(layout.colour, t.height, forgive);
-  for_each_row(layout.depth, t.height, forgive);
+  for_each_row(scene.colour, t.height, forgive);
+  for_each_row(scene.depth, t.height, forgive);
   for (std::byte b : vram)
     if (b != kUntouched) return false;
   return true;
@@ -99,20 +82,36 @@ sim::Image picture_of(const TargetSpec& target, std::uint32_t stride_bytes, std:
   return picture;
 }
 
-SceneDrawing draw_scene(const Scene& scene, gfx::Engine& engine, Rgba8 background) {
+SceneRecording record_scene(const Scene& scene, Rgba8 background) {
   const TargetSpec& t = scene.target;
-  const Layout layout(t);
-  SceneMemory memory(kRamBytes, layout.vram_bytes);
-  std::memset(memory.vram().data(), static_cast<int>(kUntouched), memory.vram().size());
-  fill_background(memory.vram(), layout, t, background);
+  SceneRecording recording;
+  recording.colour = place(kGuardBytes, t.width * bytes_per_pixel(t.format), t);
+  recording.depth = place(recording.colour.offset + recording.colour.bytes + kGuardBytes,
+                          t.width * bytes_per_depth(t.depth), t);
+  recording.vram_bytes = recording.depth.offset + recording.depth.bytes + kGuardBytes;
+  recording.background_pixel = pixel_bits(t.format, background);
 
   const auto address = [](const Plane& p) { return SceneMemory::kVramBase + static_cast<BusAddress>(p.offset); };
-  SceneBuilder builder(memory, {address(layout.colour), layout.colour.stride, t.width, t.height, t.format},
-                       {address(layout.depth), layout.depth.stride, t.depth}, background);
+  SceneMemory memory(kRamBytes, 0);
+  SceneBuilder builder(memory, {address(recording.colour), recording.colour.stride, t.width, t.height, t.format},
+                       {address(recording.depth), recording.depth.stride, t.depth}, background);
   scene.build(builder);
+  recording.lists = builder.finish();
+  const auto used = memory.ram().first(builder.ram_used());
+  recording.ram.assign(used.begin(), used.end());
+  return recording;
+}
+
+SceneDrawing draw_scene(const Scene& scene, gfx::Engine& engine, Rgba8 background) {
+  const TargetSpec& t = scene.target;
+  const SceneRecording recording = record_scene(scene, background);
+  SceneMemory memory(recording.ram.size(), recording.vram_bytes);
+  std::copy(recording.ram.begin(), recording.ram.end(), memory.ram().begin());
+  std::memset(memory.vram().data(), static_cast<int>(kUntouched), memory.vram().size());
+  fill_background(memory.vram(), recording, t);
 
   SceneDrawing drawing;
-  for (const auto& list : builder.finish()) {
+  for (const auto& list : recording.lists) {
     const gfx::ExecutionReport report = engine.execute(list, memory);
     add(drawing.counters, report.counters);
     if (drawing.status.ok()) drawing.status = report.status;
@@ -122,10 +121,10 @@ SceneDrawing draw_scene(const Scene& scene, gfx::Engine& engine, Rgba8 backgroun
     const auto bytes = vram.subspan(p.offset, p.bytes);
     return std::vector<std::byte>(bytes.begin(), bytes.end());
   };
-  drawing.colour_plane = copy(layout.colour);
-  drawing.depth_plane = copy(layout.depth);
-  drawing.picture = picture_of(t, layout.colour.stride, drawing.colour_plane);
-  drawing.strayed = !outside_pixels_untouched({vram.begin(), vram.end()}, layout, t);
+  drawing.colour_plane = copy(recording.colour);
+  drawing.depth_plane = copy(recording.depth);
+  drawing.picture = picture_of(t, recording.colour.stride, drawing.colour_plane);
+  drawing.strayed = !outside_pixels_untouched({vram.begin(), vram.end()}, recording, t);
   return drawing;
 }
 

@@ -1,0 +1,21 @@
+# usuzumi_add_golden_variant(NAME FLAGS -O0 …): the host's player with all of the device below it, compiled anew with
+# other options from the same sources. What the libraries set for single sources (as -O3 where thinning spends its time)
+# does not hold here: the flags do, everywhere.
+function(usuzumi_add_golden_variant name)
+  cmake_parse_arguments(ARG "" "" "FLAGS" ${ARGN})
+  add_executable(${name} golden_play.cc)
+  foreach(library usuzumi_hal usuzumi_firmware usuzumi_engine usuzumi_engine_soft usuzumi_board usuzumi_golden_player)
+    get_target_property(folder ${library} SOURCE_DIR)
+    get_target_property(sources ${library} SOURCES)
+    list(TRANSFORM sources PREPEND ${folder}/ REGEX "^[^/]")
+    target_sources(${name} PRIVATE ${sources})
+    get_target_property(definitions ${library} COMPILE_DEFINITIONS)
+    if(definitions)
+      target_compile_definitions(${name} PRIVATE ${definitions})
+    endif()
+  endforeach()
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/hal/include)
+  target_link_libraries(${name} PRIVATE usuzumi_embedded)
+  # No -Wpsabi: vectors wider than the baseline are passed between inlined functions only.
+  target_compile_options(${name} PRIVATE ${ARG_FLAGS} -Wno-psabi)
+endfunction()
