@@ -1,4 +1,4 @@
-// The variant that runs everywhere: SSE2 on x86-64, NEON on AArch64, plain code elsewhere.
+// The variant of four lanes: SSE2 on x86-64, NEON on Arm, plain code elsewhere.
 #include "gfx_subsystem/engine_soft/kernel_headers.h"
 
 #define USUZUMI_KERNEL baseline

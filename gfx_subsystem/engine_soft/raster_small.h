@@ -1,21 +1,14 @@
 // Raster of small triangles: the few 4x4 blocks of the bounding box, all three edge functions at once, no hierarchy.
+// Where the processor has no vectors, raster_small_scalar.h does the same pixel by pixel.
 #pragma once
 
 #include <bit>
 
+#include "gfx_subsystem/engine_soft/raster_small_scalar.h"
 #include "gfx_subsystem/engine_soft/shader.h"
 
 namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
 namespace {
-
-/// Position of a tile's first pixel on the target.
-struct TileOrigin {
-  std::int32_t x, y;
-};
-
-[[gnu::always_inline]] inline std::size_t block_offset(std::int32_t column, std::int32_t row) {
-  return static_cast<std::size_t>(row * kBlocksPerRow + column) * kBlockPixels;
-}
 
 /// All ones where both 16-bit halves lie in 0 .. last.
 [[gnu::always_inline]] inline I32 inside_box(I16 xy, std::int32_t last_x, std::int32_t last_y) {
@@ -26,6 +19,7 @@ struct TileOrigin {
 /// Returns the pixels covered.
 template <Shading kShading, bool kDepth, bool kRgb565>
 std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin, const TileBuffers& tile) {
+  if constexpr (kPixelwise) return raster_small_scalar<kShading, kDepth, kRgb565>(d, t, origin, tile);
   const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
   const bool clipped = (t.draw & kClippedBox) != 0;
   const std::int32_t x = t.x - origin.x, y = t.y - origin.y;  // of the record's origin pixel within the tile

@@ -37,6 +37,22 @@ struct TileBuffers {
   std::uint32_t* depth;
 };
 
+/// Position of a tile's first pixel on the target.
+struct TileOrigin {
+  std::int32_t x, y;
+};
+
+[[gnu::always_inline]] inline std::size_t block_offset(std::int32_t column, std::int32_t row) {
+  return static_cast<std::size_t>(row * kBlocksPerRow + column) * kBlockPixels;
+}
+
+/// A pixel of the two words of colour lanes; Word is a vector of them or one alone.
+template <bool kRgb565, class Word>
+[[gnu::always_inline]] inline Word pack_lanes(Word high, Word low) {
+  if constexpr (kRgb565) return (low >> 16 & 0xF800) | (high >> 5 & 0x07E0) | (low >> 11 & 0x001F);
+  return 0xFF000000u | (high & 0xFF00) | (low >> 8 & 0xFF00FF);
+}
+
 /// Planes are split in two: what depends on the lane is added up once per triangle, what depends on the part is one
 /// scalar. The sums are modulo their width, so the split does not change them.
 template <Shading kShading, bool kDepth, bool kRgb565>
@@ -103,10 +119,7 @@ class Shader {
     return pack(lane[1], lane[2] | lane[0] << 16);
   }
 
-  [[gnu::always_inline]] static U32 pack(U32 high, U32 low) {
-    if constexpr (kRgb565) return (low >> 16 & 0xF800) | (high >> 5 & 0x07E0) | (low >> 11 & 0x001F);
-    return 0xFF000000u | (high & 0xFF00) | (low >> 8 & 0xFF00FF);
-  }
+  [[gnu::always_inline]] static U32 pack(U32 high, U32 low) { return pack_lanes<kRgb565>(high, low); }
 
   const DrawSetup& d_;
   const Planes& p_;

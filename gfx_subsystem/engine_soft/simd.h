@@ -16,6 +16,12 @@ namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
 namespace {
 
 inline constexpr int kLanes = USUZUMI_KERNEL_LANES;  // 4, 8 or 16
+/// Small triangles are rasterized pixel by pixel: where vectors are but pretended, edges cost less so.
+#if defined(USUZUMI_KERNEL_PIXELWISE)
+inline constexpr bool kPixelwise = true;
+#else
+inline constexpr bool kPixelwise = false;
+#endif
 
 using I32 = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using U32 = std::uint32_t __attribute__((vector_size(4 * kLanes)));

@@ -33,7 +33,7 @@ class SoftEngine final : public Engine, private CommandSink {
   /// Working memory below which lists on a target of that size end with kResourceExhausted.
   static std::size_t minimum_work_bytes(std::uint32_t width, std::uint32_t height);
 
-  /// Name of the kernel variant in use: "baseline", "avx2", "avx512".
+  /// Name of the kernel variant in use: "pixelwise", "baseline", "avx2", "avx512".
   const char* kernel_name() const { return kernels_->name; }
 
  private:
