@@ -34,8 +34,10 @@ inline TestMesh square(float half, std::uint32_t level, float z = 0) {
   return mesh;
 }
 
-/// The faces of an indexed mesh as one strip that repeats places between them, the way bare data must have them.
+/// The faces of an indexed mesh as one strip that repeats places between them, the way bare data must have them; a mesh
+/// without indices is a strip already.
 inline TestMesh as_strip(const TestMesh& mesh) {
+  if (mesh.indices.empty()) return mesh;
   TestMesh strip;
   strip.level = mesh.level;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -13,7 +13,7 @@ TEST(Board, IsFoundByItsName) {
   EXPECT_EQ(find_board("host-sim")->ram_bytes, 536870912u);
   EXPECT_EQ(find_board("Host-Sim"), nullptr);
   EXPECT_EQ(find_board(""), nullptr);
-  EXPECT_EQ(boards().size(), 2u);
+  EXPECT_EQ(boards().size(), 5u);
 }
 
 TEST(Board, SmallBoardIsTheOneOfTheContract) {
