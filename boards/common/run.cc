@@ -136,6 +136,7 @@ int run(Board& board, const BoardMemory& memory, const RunConfig& config) {
   for (std::uint32_t frame = 0; config.frames == 0 || frame < config.frames; ++frame) {
     print_step(board, parts, frame, parts.instrument.step(request_of(device, bounds, frame, config)));
     board.step_done();
+    if (board.stop_wanted()) break;
   }
   return kExitOk;
 }
