@@ -51,7 +51,7 @@ Result<VramLayout> Device::fit_vram(const DeviceConfig& config) {
     const Result<VramLayout> layout =
         wanted.stride_bytes > 0
             ? plan_vram(ports_.vram_base, ports_.vram_bytes, wanted, f.depth)
-            : Status{StatusCode::kUnsupported, "display: has no such picture format; width", config.width};
+            : Status{StatusCode::kUnavailable, "display: has no such picture format; width", config.width};
     if (layout.ok()) return layout;
     if (first.ok()) first = layout.status();  // what was asked for is what the answer is about
   }

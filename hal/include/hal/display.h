@@ -38,8 +38,8 @@ class Display {
     return do_stride_bytes(width, height, format);
   }
 
-  /// Sets the mode. The panel shows black until the first show(). kInvalidArgument or kUnsupported when the display
-  /// cannot send such a picture, kUnavailable when there is no display.
+  /// Sets the mode. The panel shows black until the first show(). kInvalidArgument when the display cannot send
+  /// such a picture, kUnavailable when there is no display. (kUnsupported is said of drawing data.)
   Status start(const Scanout& scanout) { return do_start(scanout); }
 
   /// Sends picture 0 or 1 from the next vertical blank on, and returns once it is being sent: the other one is then
