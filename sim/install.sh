@@ -11,7 +11,7 @@ if [ "${1:-}" = tests ]; then
 fi
 if [ "${1:-}" = boards ]; then
   packages+=(python3 libgtest-dev libgmock-dev gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
-             g++-aarch64-linux-gnu qemu-system-arm qemu-user-static cpio kmod xz-utils libgpiod-dev:arm64 libdrm-dev:arm64)
+             g++-aarch64-linux-gnu qemu-system-arm qemu-user-static kmod pkg-config libgpiod-dev:arm64 libdrm-dev:arm64)
 fi
 
 missing=()

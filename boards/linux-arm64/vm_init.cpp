@@ -1,0 +1,118 @@
+// /init of the virtual machine that run.py starts: mounts, loads modules, runs programs, says how each ended, powers
+// off.
+//
+// Behind "--" on the kernel's command line stands a file with a program and its arguments in every line; before these
+// words may stand `user=N`, a user and group to run as, and `stop_ms=N`, when to send SIGTERM.
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <grp.h>
+#include <sys/mount.h>
+#include <sys/reboot.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <time.h>
+#include <unistd.h>
+
+namespace {
+
+void sleep_ms(long ms) {
+  const timespec pause{ms / 1000, ms % 1000 * 1'000'000};
+  nanosleep(&pause, nullptr);
+}
+
+void mount_all() {
+  const char* const kinds[][2] = {{"proc", "/proc"}, {"sysfs", "/sys"}, {"devtmpfs", "/dev"}};
+  for (const auto& [kind, at] : kinds) {
+    mkdir(at, 0755);
+    if (mount(kind, at, kind, 0, nullptr) < 0 && errno != EBUSY)
+      std::printf("init: %s: %s\n", at, std::strerror(errno));
+  }
+}
+
+/// In the order of /modules/order, which names each after those it needs.
+void load_modules() {
+  std::FILE* const order = std::fopen("/modules/order", "r");
+  if (order == nullptr) return;
+  char path[160];
+  while (std::fscanf(order, "%159s", path) == 1) {
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0 || syscall(SYS_finit_module, file, "", 0) < 0)
+      std::printf("init: %s: %s\n", path, std::strerror(errno));
+    if (file >= 0) close(file);
+  }
+  std::fclose(order);
+}
+
+/// The console passes bytes on as they are, and lines end as on a terminal.
+void make_console_raw() {
+  termios settings;
+  if (tcgetattr(STDIN_FILENO, &settings) < 0) return;
+  cfmakeraw(&settings);
+  settings.c_oflag |= OPOST | ONLCR;
+  tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+}
+
+struct Order {
+  const char* user = nullptr;
+  const char* stop_ms = nullptr;
+  char* words[40] = {};  // of the program, a null at the end
+};
+
+Order order_of(char* line) {
+  Order order;
+  std::size_t count = 0;
+  for (char* word = std::strtok(line, " \n"); word != nullptr; word = std::strtok(nullptr, " \n")) {
+    if (count == 0 && std::strncmp(word, "user=", 5) == 0) order.user = word + 5;
+    else if (count == 0 && std::strncmp(word, "stop_ms=", 8) == 0) order.stop_ms = word + 8;
+    else if (count + 1 < sizeof order.words / sizeof *order.words) order.words[count++] = word;
+  }
+  return order;
+}
+
+[[noreturn]] void become(const Order& order) {
+  if (order.user != nullptr) {
+    const auto id = static_cast<uid_t>(std::strtoul(order.user, nullptr, 10));
+    if (setgroups(0, nullptr) < 0 || setgid(id) < 0 || setuid(id) < 0) std::perror("init: user");
+  }
+  execv(order.words[0], order.words);
+  std::printf("init: %s: %s\n", order.words[0], std::strerror(errno));
+  std::fflush(stdout);
+  _exit(127);
+}
+
+void run(const Order& order) {
+  const pid_t child = fork();
+  if (child == 0) become(order);
+  if (order.stop_ms != nullptr) {
+    sleep_ms(std::strtol(order.stop_ms, nullptr, 10));
+    kill(child, SIGTERM);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) std::printf("exit %d\n", WEXITSTATUS(status));
+  else std::printf("killed by signal %d\n", WTERMSIG(status));
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  setvbuf(stdout, nullptr, _IOLBF, 0);
+  mount_all();
+  make_console_raw();
+  load_modules();
+  // A driver makes its device a moment after its module is in; a machine without one waits for the whole of it.
+  for (int i = 0; i < 100 && access("/dev/dri/card0", F_OK) < 0; ++i) sleep_ms(10);
+  std::FILE* const orders = count > 1 ? std::fopen(arguments[1], "r") : nullptr;
+  if (orders == nullptr) std::printf("init: no file of programs behind -- on the kernel's command line\n");
+  char line[1024];
+  while (orders != nullptr && std::fgets(line, sizeof line, orders) != nullptr) run(order_of(line));
+  std::fflush(stdout);
+  tcdrain(STDOUT_FILENO);
+  reboot(RB_POWER_OFF);
+}
