@@ -184,9 +184,9 @@ def check_exit(vm, code):
 # ---- what goes wrong ------------------------------------------------------------------------------------------------
 
 SAFE_CASES = [  # (options, words of the error, exit code): the display shows the safe picture
-    ("--rom /none.rom", r"error: .*", 3),
-    ("--rom /empty.rom", r"error: .*", 3),
-    ("--rom /cut.rom", r"error: .*(truncated|ends|cut|longer|bytes).*", 3),
+    ("--rom /none.rom", r"error: file is too short for drawing data; .*", 3),
+    ("--rom /empty.rom", r"error: file is too short for drawing data; .*", 3),
+    ("--rom /cut.rom", r"error: file is truncated: .*", 3),
     ("--rom /foreign.rom", r"error: .*another board.*", 3),
 ]
 REFUSED_CASES = [  # the program ends before it touches the display
@@ -198,6 +198,11 @@ REFUSED_CASES = [  # the program ends before it touches the display
     ("--rom /drawing.rom --size big", r"error: --size big: give width and height in pixels.*", 2),
 ]
 
+BUSY_CASES = [  # while another instrument runs
+    ("--rom /drawing.rom", r"error: GPIO chip gpiochip0 line 4: in use; .* errno 16", 5),
+    ("--rom /drawing.rom --ignition 0 --mode 1 --backlight 2", r"error: display /dev/dri/card0: in use by .* errno 16", 5),
+]
+
 
 def orders():
     return {"drive": [device("--rom /drawing.rom --orbit", frames=FRAMES)],
@@ -205,7 +210,9 @@ def orders():
             "refused": ["user=1000 " + device("--rom /drawing.rom", pause=False)] +
                        [device(options, pause=False) for options, _, _ in REFUSED_CASES] +
                        ["stop_ms=1500 /usr/bin/usuzumi-device --rom /drawing.rom",
-                        "stop_ms=1500 /usr/bin/usuzumi-device --rom /none.rom"],
+                        "stop_ms=1500 /usr/bin/usuzumi-device --rom /none.rom",
+                        "beside_ms=1500 /usr/bin/usuzumi-device --rom /drawing.rom"] +
+                       [device(options, pause=False) for options, _, _ in BUSY_CASES],
             "blind": [device("--rom /drawing.rom", pause=False)]}
 
 
@@ -231,6 +238,8 @@ def safe_pictures(context, image, initramfs):
             vm.send(b"\n")
             check_exit(vm, code)
         vm.wait_exit()
+        check("note: --rom /none.rom: No such file or directory; usuzumi pack makes one" in vm.console_lines,
+              "a ROM that is not there is not named")
     return lines
 
 
@@ -251,6 +260,11 @@ def refusals(context, image, initramfs):
             check(vm.output(BACKLIGHT) == 1, "the backlight is off while the program runs")
             check_exit(vm, code)
             check(vm.output(BACKLIGHT) == 0, "SIGTERM leaves the backlight on")
+        vm.wait_for_line("frame 0 picture")
+        for options, pattern, code in BUSY_CASES:
+            lines.append(error_line(vm, pattern, f"{options} beside another"))
+            check_exit(vm, code)
+            check(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
         vm.wait_exit()
     with Vm(image, initramfs, "/blind", gpu=None) as vm:
         vm.drive(IGNITION, 1)
