@@ -250,7 +250,12 @@ class Qemu:
 
     def resume(self) -> None:
         """The processor runs, from where it stands: at first, from reset."""
-        self.qmp("cont")
+        self._qmp.send(b'{"execute": "cont"}\n')
+        end = self._answer_end()
+        while True:
+            line = self._qmp.line("answer to cont", end)
+            if line is None or "return" in json.loads(line):
+                return  # of a short program QEMU may end before it answers
 
     def pause(self) -> None:
         """The processor stands still, and virtual time with it."""
@@ -288,7 +293,8 @@ class Qemu:
             self._process.kill()
             self._process.wait()
         errors = self.folder / "stderr"
-        said = errors.read_text(errors="replace").strip()[-500:] if errors.exists() else ""
+        said = errors.read_text(errors="replace").splitlines() if errors.exists() else []
+        said = "\n".join(line for line in said if not line.startswith("qemu: module "))[-500:]  # of packages not needed
         last = "".join(f"\n  console: {line}" for line in self.console_lines[-5:])
         raise QemuError(what + last + (f"\n  QEMU: {said}" if said else ""))
 
@@ -357,13 +363,11 @@ class Qemu:
             line = self._qtest.line(f"answer to {command}", end)
             if line is None:
                 self._ended(f"answer to {command}")
-            if line.startswith("IRQ "):
-                _, edge, number = line.split()
-                self._output_events.append((int(number), 1 if edge == "raise" else 0))
-            elif line.startswith("OK"):
+            if self._noted(line):
+                continue
+            if line.startswith("OK"):
                 return line[2:].strip()
-            else:
-                self.fail(f"qtest {command}: {line}")
+            self.fail(f"qtest {command}: {line}")
 
     def set_input(self, path: str, line: int, level: int) -> None:
         """Drives an input line of a GPIO device."""
@@ -374,12 +378,23 @@ class Qemu:
         self.qtest(f"irq_intercept_out {path}")
 
     def output_events(self) -> list:
-        """(line, level) of each change since the last call, in order."""
-        self.qtest("endianness")  # any command: what has been noted comes before its answer
+        """(line, level) of each change since the last call, in order; of a machine that has ended, too."""
+        if self._process.poll() is None:
+            self.qtest("endianness")  # any command: what has been noted comes before its answer
+        else:
+            while (line := self._qtest.line("end", self._answer_end())) is not None:
+                self._noted(line)
         events, self._output_events = self._output_events, []
         return events
 
     # -- inside
+
+    def _noted(self, line: str) -> bool:
+        if not line.startswith("IRQ "):
+            return False
+        _, edge, number = line.split()
+        self._output_events.append((int(number), 1 if edge == "raise" else 0))
+        return True
 
     def _listen(self, name: str) -> str:
         return f"unix:{self.folder / name},server=on,wait=off"

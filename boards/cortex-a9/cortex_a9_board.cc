@@ -48,8 +48,10 @@ Status CortexA9Board::do_start(const Scanout& scanout) {
 }
 
 Status CortexA9Board::do_show(std::uint32_t picture, const PictureRectangle* part) {
+  const bool black = part != nullptr && part->empty();
   {
     const InterruptLock lock;
+    times_.handed(black, moment());
     asm volatile("dsb" ::: "memory");  // the picture is in memory before the display fetches it
     display_.send(scanout_.picture[picture]);
   }
@@ -57,7 +59,7 @@ Status CortexA9Board::do_show(std::uint32_t picture, const PictureRectangle* par
     return {StatusCode::kDeadlineExceeded, "display: no vertical compare comes; waited, in microseconds",
             kShowTimeoutUs};
   const InterruptLock lock;
-  times_.sent(part != nullptr && part->empty(), moment());
+  times_.sent(black, moment());
   return ok_status();
 }
 
@@ -66,6 +68,7 @@ Status CortexA9Board::do_show(std::uint32_t picture, const PictureRectangle* par
 PinInputs CortexA9Board::do_read() {
   const InterruptLock lock;
   const std::uint32_t edges = gpio_.take_edges();
+  drive_backlight();  // of an edge that no interrupt tells of any more
   // An edge of the button is a press, if only of its end: it was down since the last read.
   const bool pressed = ((edges | gpio_.read(kModeLine)) & kModeLine) != 0;
   return {.ignition = ignition(), .mode_button = pressed};
@@ -103,11 +106,10 @@ void CortexA9Board::do_step_done() {
     news = times_.take_line(line);
   }
   if (news) print(line.finish());
-  std::optional<char> key = console_.receive();
-  if (key == 'h') held_ = true;
+  if (!held_) held_ = console_.receive() == 'h';
   if (!held_) return;
   constexpr std::uint32_t kLookUs = 1000;  // the console has no interrupt here
-  key = console_.receive();
+  std::optional<char> key = console_.receive();
   for (std::uint32_t us = 0; !key && us < kHoldUs; us += kLookUs) {
     wait_until(kLookUs, [] { return false; });
     key = console_.receive();

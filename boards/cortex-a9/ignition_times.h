@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "boards/common/text_line.h"
 
@@ -18,17 +17,23 @@ class IgnitionTimes {
 
   void ignition(bool on, const Moment& now);
   void light(bool on, const Moment& now);
-  /// A picture has begun to be sent.
+  /// A picture has been drawn and is handed to the display.
+  void handed(bool black, const Moment& now);
+  /// It has begun to be sent.
   void sent(bool black, const Moment& now);
 
-  /// Once for each edge that has been followed, "ignition 0 light_us=4 black_us=21033 vcompares=2": from the edge to the
-  /// light's going off and to black's being sent, and the vertical compares until then; or "ignition 1 light_us=61000
-  /// vcompares=4": from the edge to the light, with the right picture. False where there is nothing new.
+  /// Once for each edge that has been followed, "ignition 0 light_us=4 black_us=21033 vcompares=1": from the edge until
+  /// the light was off and until black was sent; or "ignition 1 light_us=61000 vcompares=2": from the edge until the
+  /// light was on. Vertical compares count from when the picture was drawn. False where there is nothing new.
   bool take_line(TextLine& line);
 
  private:
-  bool pending_ = false, on_ = false, lit_ = false, light_followed_ = false, black_followed_ = false;
-  Moment edge_, light_, black_;
+  /// What follows an edge, in the order in which it comes: off, then handed, then sent; or handed, then lit.
+  enum class Stage : std::uint8_t { kNone, kEdge, kHanded, kFollowed };
+
+  bool on_ = false, lit_ = false;
+  Stage stage_ = Stage::kNone;
+  Moment edge_, light_, handed_, sent_;
 };
 
 }  // namespace usuzumi::boards::cortex_a9
