@@ -1,4 +1,5 @@
-// Registers of the Cortex-M7 itself that the board uses (Arm DDI 0403, ARMv7-M Architecture Reference Manual, B3.2-B3.5).
+// Registers of the Cortex-M7 itself that the board uses (Arm DDI 0403, ARMv7-M Architecture Reference Manual, B3.2 to
+// B3.5).
 #pragma once
 
 #include <cstdint>

@@ -24,8 +24,8 @@ class CortexM7Board final : public Board {
   void do_wait_for_change(std::uint32_t timeout_us) override;
   void do_print(std::string_view line) override;
   /// "cost 3 instructions=4711000", where a picture was shown: from the step's first look at the pins until then, so
-  /// that the text and the picture's checksum are not in it. Exact to 40 instructions under QEMU's -icount shift=0, else
-  /// a measure of time.
+  /// that the text and the picture's checksum are not in it. Exact to 40 instructions under QEMU's -icount shift=0,
+  /// else a measure of time.
   void do_step_done() override;
 
   PinScript pins_;

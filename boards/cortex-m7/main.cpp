@@ -15,8 +15,8 @@ using namespace usuzumi;
 using namespace usuzumi::boards;
 using namespace usuzumi::boards::cortex_m7;
 
-/// "memory stack=5120/32768 firmware=200000/327680 engine=212992/212992 free=81920": bytes ever used of each part of RAM,
-/// and what no part has.
+/// "memory stack=5120/32768 firmware=200000/327680 engine=212992/212992 free=81920": bytes ever used of each part of
+/// RAM, and what no part has.
 void print_memory(CortexM7Board& board) {
   TextLine line;
   line.text("memory stack=").number(deepest_stack_bytes()).text("/").number(stack_memory().size());

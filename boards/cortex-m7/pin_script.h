@@ -14,8 +14,8 @@ class PinScript {
  public:
   static constexpr std::size_t kMaxEvents = 32;
 
-  /// FRAME:NAME=0|1, parted by commas, in rising order of frames; NAME is ignition or mode. All low at first. False, and
-  /// an empty script, where the text is none or has more than kMaxEvents.
+  /// FRAME:NAME=0|1, parted by commas, in rising order of frames; NAME is ignition or mode. All low at first. False,
+  /// and an empty script, where the text is none or has more than kMaxEvents.
   bool read(std::string_view text);
 
   /// The inputs at this frame; frames come in rising order. Without a script the ignition is on, the button up.

@@ -245,6 +245,8 @@ MeshView bare_view(const Words& words, std::uint32_t n, std::uint32_t record_off
 Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   if (reinterpret_cast<std::uintptr_t>(rom.data()) % 4 != 0)
     return Status{StatusCode::kInvalidArgument, "drawing data must begin at a multiple of 4 bytes", 0};
+  if (rom.empty())
+    return damaged("there are no drawing data: the file is empty or the flash erased; bytes present", 0);
   if (rom.size() < 4)
     return damaged("file is too short for drawing data; bytes present", static_cast<std::uint32_t>(rom.size()));
   if (rom.size() > format::kMaxFileBytes) return unsupported("drawing data is larger than 1 GiB", 0);

@@ -37,8 +37,9 @@ ALLOWED = {
 }
 # What runs on the device uses only these of the standard library: nothing that allocates, throws or needs an OS.
 FREESTANDING = {
-    "algorithm", "array", "atomic", "bit", "cmath", "concepts", "cstddef", "cstdint", "cstring", "limits", "new",
-    "span", "string_view", "type_traits", "utility", "charconv", "immintrin.h", "arm_neon.h", "tuple", "iterator", "numeric",
+    "algorithm", "array", "atomic", "bit", "cassert", "cmath", "concepts", "cstddef", "cstdint", "cstring", "limits",
+    "new", "span", "string_view", "type_traits", "utility", "charconv", "immintrin.h", "arm_neon.h", "tuple", "iterator",
+    "numeric",
 }
 FOLDERS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "boards/", "tests/golden/player/")
 OURS = ("hal/", "firmware/", "gfx_subsystem/", "sim/", "tests/", "boards/")
