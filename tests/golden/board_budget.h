@@ -15,7 +15,7 @@ struct BoardBudget {
 inline constexpr std::size_t kKiB = 1024, kMiB = 1024 * kKiB;
 inline constexpr BoardBudget kBoardBudgets[] = {
     {"host", 16 * kMiB, 64 * kMiB, 8 * kMiB},
-    {"cortex-m7", 320 * kKiB, 4 * kMiB, 160 * kKiB},
+    {"cortex-m7", 320 * kKiB, 4 * kMiB, 208 * kKiB},
     {"cortex-a9", 8 * kMiB, 8 * kMiB, 1 * kMiB},
     {"linux-arm64", 32 * kMiB, 16 * kMiB, 8 * kMiB},
 };

@@ -1,7 +1,7 @@
 // Plays a bundle of golden cases (bundle.h) on whatever runs it, a host or a bare board, and prints the manifest's
 // lines.
 //
-// No heap, no exceptions, 8 KiB of stack. The bundle stays in ROM, command lists are executed where they lie.
+// No heap, no exceptions, 16 KiB of stack. The bundle stays in ROM, command lists are executed where they lie.
 #pragma once
 
 #include <cstddef>
