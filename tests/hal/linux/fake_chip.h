@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct FakeChip {
 struct FakeChips {
   std::vector<FakeChip*> chips;
   int open_chips = 0, objects = 0;  // of the library: taken and not given back
+  std::function<void()> on_wait;    // called when edges are waited for, with time to wait
 };
 
 /// What the stand-ins look into.

@@ -87,6 +87,7 @@ int gpiod_line_set_value(gpiod_line* line, int value) {
 }
 
 int gpiod_line_event_wait_bulk(gpiod_line_bulk* bulk, const timespec*, gpiod_line_bulk*) {
+  if (fake_chips().on_wait) fake_chips().on_wait();
   for (unsigned i = 0; i < bulk->num_lines; ++i)
     if (!bulk->lines[i]->fake().queue.empty()) return 1;
   return 0;

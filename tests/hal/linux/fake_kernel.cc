@@ -176,6 +176,7 @@ int FakeKernel::page_flip(const drm_mode_crtc_page_flip& request) {
   if (!frames_.contains(request.fb_id) || (request.flags & DRM_MODE_PAGE_FLIP_EVENT) == 0) return -EINVAL;
   pending_flip_ = request.fb_id;
   ++card.flips;
+  if (card.on_flip) card.on_flip(card.flips);
   return 0;
 }
 

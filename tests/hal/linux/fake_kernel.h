@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -27,7 +28,7 @@ struct FakeCard {
   int open_error = 0;                      // errno
 
   std::uint32_t shown_frame_buffer = kConsoleBuffer;  // 0: the CRTC is off
-  bool mode_set_by_us = false;
+  std::function<void(std::uint32_t)> on_flip;  // called with the number of flips asked for so far
   std::uint32_t flips = 0, crtc_settings = 0, flushes = 0;
 };
 

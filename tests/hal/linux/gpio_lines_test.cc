@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 class GpioLinesTest : public ::testing::Test {
  protected:
-  GpioLinesTest() { fake_chips() = {{&chip_}, 0, 0}; }
+  GpioLinesTest() { fake_chips() = {{&chip_}, 0, 0, {}}; }
   ~GpioLinesTest() override { fake_chips() = {}; }
 
   Status open(const char* chip = "9030000.pl061") {

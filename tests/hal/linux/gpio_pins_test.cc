@@ -14,7 +14,7 @@ class GpioPinsTest : public ::testing::Test {
   static constexpr unsigned kIgnition = 4, kMode = 5, kBacklight = 6;
 
   GpioPinsTest() {
-    fake_chips() = {{&chip_}, 0, 0};
+    fake_chips() = {{&chip_}, 0, 0, {}};
     EXPECT_TRUE(pins_.open({.chip = "gpiochip0",
                             .ignition = {kIgnition, false},
                             .mode_button = {kMode, false},
