@@ -46,7 +46,8 @@ TEST_F(RunPins, EachModeOfTheButtonIsWhatItsOptionDraws) {
 }
 
 TEST_F(RunPins, TheBudgetIsTheQuotaThatIsGiven) {
-  const auto cycle = frames("--frames 12 --quota 100 --gpio 0:ignition=1,2:mode=1,3:mode=0,6:mode=1,7:mode=0,10:mode=1");
+  const auto cycle =
+      frames("--frames 12 --quota 100 --gpio 0:ignition=1,2:mode=1,3:mode=0,6:mode=1,7:mode=0,10:mode=1");
   EXPECT_EQ(cycle[0]["faces_thinned"], 100);
   EXPECT_EQ(cycle[2]["mode"], "full");
   EXPECT_EQ(cycle[6]["faces_thinned"], 400);
