@@ -184,8 +184,8 @@ def check_exit(vm, code):
 # ---- what goes wrong ------------------------------------------------------------------------------------------------
 
 SAFE_CASES = [  # (options, words of the error, exit code): the display shows the safe picture
-    ("--rom /none.rom", r"error: file is too short for drawing data; .*", 3),
-    ("--rom /empty.rom", r"error: file is too short for drawing data; .*", 3),
+    ("--rom /none.rom", r"error: there are no drawing data: .*", 3),
+    ("--rom /empty.rom", r"error: there are no drawing data: .*", 3),
     ("--rom /cut.rom", r"error: file is truncated: .*", 3),
     ("--rom /foreign.rom", r"error: .*another board.*", 3),
 ]
@@ -279,12 +279,10 @@ def refusals(context, image, initramfs):
 
 
 def goldens(context):
-    player = next(context.build.rglob("usuzumi-goldens"), None)
-    if player is None:
-        return "no player of goldens in this build"
-    output = command(["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu", player, context.golden_bundle], timeout=600)
+    """The golden scenes and runs, as the manifest has them."""
+    player = next(context.build.rglob("usuzumi-goldens"))
+    output = command(["qemu-aarch64-static", "-cpu", "cortex-a53", player, context.golden_bundle], timeout=600)
     context.check_golden(output.decode())
-    return None
 
 
 def run(context):
@@ -296,8 +294,8 @@ def run(context):
     initramfs = make_initramfs(context, tree, modules, orders())
     crcs, boot, ram = drive(context, image, initramfs)
     errors = safe_pictures(context, image, initramfs) + refusals(context, image, initramfs)
-    missing = goldens(context)
+    goldens(context)
     sizes = command(["aarch64-linux-gnu-size", tree / "usr/bin/usuzumi-device"]).decode().splitlines()[1].split()
     notes = [boot, f"{crcs} screendumps equal the simulator's pictures; {len(errors)} refusals, each one line:", *errors]
     return {"wall_s": time.monotonic() - start, "crcs": crcs, "code_bytes": int(sizes[0]), "ram_bytes": ram,
-            "instructions_per_frame": None, "notes": notes + ([missing] if missing else [])}
+            "instructions_per_frame": None, "notes": notes}

@@ -2,8 +2,8 @@
 // off.
 //
 // Behind "--" on the kernel's command line stands a file with a program and its arguments in every line; before these
-// words may stand `user=N`, a user and group to run as, `stop_ms=N`, when to send SIGTERM, and `beside_ms=N`, after which
-// the next program is run beside it.
+// words may stand `user=N`, a user and group to run as, `stop_ms=N`, when to send SIGTERM, and `beside_ms=N`, after
+// which the next program is run beside it.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>

@@ -1,5 +1,6 @@
 #include "boards/linux-arm64/options.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
@@ -54,8 +55,8 @@ TEST(DeviceOptions, HelpNeedsNothingElse) {
   const Parsed p = parse({"--help"});
   EXPECT_TRUE(p.ok);
   EXPECT_TRUE(p.options.help);
-  for (const char* option : {"--rom", "--size", "--card", "--rgb565", "--gpio-chip", "--ignition", "--mode", "--backlight",
-                             "--frames", "--orbit", "--pause"})
+  for (const char* option : {"--rom", "--size", "--card", "--rgb565", "--gpio-chip", "--ignition", "--mode",
+                             "--backlight", "--frames", "--orbit", "--pause"})
     EXPECT_THAT(kUsage, HasSubstr(option));
 }
 

@@ -49,6 +49,7 @@ TEST_F(GpioLinesTest, AChipIsFoundByLabelByNameAndByPath) {
   EXPECT_TRUE(open("soc-gpio").ok()) << "numbers have gaps";
   EXPECT_EQ(other.requested_lines(), 4);
   EXPECT_EQ(chip_.requested_lines(), 0) << "the lines held before are given back";
+  lines_.close();  // before `other` goes
 }
 
 TEST_F(GpioLinesTest, LevelsAreMeaningsNotVoltages) {
