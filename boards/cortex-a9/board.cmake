@@ -4,7 +4,7 @@ set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # CMake's own test program has no linker script
 
-# Single floats stay in VFP registers: GCC takes NEON, which flushes denormals to zero, for integers only. Sections for the
+# Floats are VFP's: GCC takes NEON, which flushes denormals to zero, for integers only (run.py looks). Sections for the
 # linker to drop; no word on an ABI change of GCC 7, for all is built by one compiler; file names relative, so that the
 # program is the same bytes wherever it is built.
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH boards_folder)

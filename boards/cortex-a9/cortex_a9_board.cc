@@ -109,12 +109,12 @@ void CortexA9Board::do_step_done() {
   if (!held_) held_ = console_.receive() == 'h';
   if (!held_) return;
   constexpr std::uint32_t kLookUs = 1000;  // the console has no interrupt here
-  std::optional<char> key = console_.receive();
-  for (std::uint32_t us = 0; !key && us < kHoldUs; us += kLookUs) {
+  char key = console_.receive();
+  for (std::uint32_t us = 0; key == '\0' && us < kHoldUs; us += kLookUs) {
     wait_until(kLookUs, [] { return false; });
     key = console_.receive();
   }
-  held_ = key && *key != 'r';
+  held_ = key != '\0' && key != 'r';
 }
 
 }  // namespace usuzumi::boards::cortex_a9

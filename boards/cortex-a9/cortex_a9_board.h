@@ -16,8 +16,8 @@ namespace usuzumi::boards::cortex_a9 {
 
 /// One of it; it stays where it is, for interrupts find it there.
 ///
-/// The console listens after each step: 'h' holds the instrument there until the next byte, which is a step more, or 'r',
-/// which lets it run. So a test looks at a panel that stands still. It is not held for ever: after kHoldUs it runs.
+/// The console listens after each step: 'h' holds the instrument there until the next byte, which is a step more, or
+/// 'r', which lets it run. So a test looks at a panel that stands still. After kHoldUs without a byte it runs on.
 class CortexA9Board final : public Board {
  public:
   static constexpr std::uint32_t kFrameUs = 16'667;
@@ -49,7 +49,7 @@ class CortexA9Board final : public Board {
   template <class Done>
   bool wait_until(std::uint32_t timeout_us, Done done);
   void on_gpio_interrupt();
-  /// The light is on while the instrument wants it and the ignition is on, so that it goes off without waiting for a step.
+  /// The light is on while the instrument wants it and the ignition is on: it goes off without waiting for a step.
   void drive_backlight();
   bool ignition() const { return gpio_.read(kIgnitionLine) == 0; }
   IgnitionTimes::Moment moment() { return {timers_.now_ns(), display_.vertical_compares()}; }

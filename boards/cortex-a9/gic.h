@@ -28,8 +28,8 @@ class InterruptLock {
   InterruptLock(const InterruptLock&) = delete;
   InterruptLock& operator=(const InterruptLock&) = delete;
 
-  /// Sleeps until an interrupt is pending, and serves it. One that became pending since the lock began is not missed: it
-  /// wakes the processor though it is masked.
+  /// Sleeps until an interrupt is pending, and serves it. One that became pending since the lock began is not missed:
+  /// it wakes the processor though it is masked.
   void sleep() const { asm volatile("dsb\n\twfi\n\tcpsie i\n\tisb\n\tcpsid i" ::: "memory"); }
 
  private:

@@ -7,7 +7,8 @@
 
 namespace usuzumi::boards::cortex_a9 {
 
-/// Is told of edges, light and pictures as they happen; times are of the board's clock. Interrupts are masked meanwhile.
+/// Is told of edges, light and pictures as they happen; times are of the board's clock. Interrupts are masked
+/// meanwhile.
 class IgnitionTimes {
  public:
   struct Moment {

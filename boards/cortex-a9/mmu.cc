@@ -64,16 +64,17 @@ void enable_memory() {
 
   invalidate_data_cache();
   const std::uint32_t zero = 0;
-  asm volatile("mcr p15, 0, %0, c7, c5, 0" ::"r"(zero));  // ICIALLU: instruction cache
-  asm volatile("mcr p15, 0, %0, c7, c5, 6" ::"r"(zero));  // BPIALL: branch predictor
-  asm volatile("mcr p15, 0, %0, c8, c7, 0" ::"r"(zero));  // TLBIALL
-  asm volatile("mcr p15, 0, %0, c2, c0, 2" ::"r"(zero));  // TTBCR: one table
+  asm volatile("mcr p15, 0, %0, c7, c5, 0" ::"r"(zero));                 // ICIALLU: instruction cache
+  asm volatile("mcr p15, 0, %0, c7, c5, 6" ::"r"(zero));                 // BPIALL: branch predictor
+  asm volatile("mcr p15, 0, %0, c8, c7, 0" ::"r"(zero));                 // TLBIALL
+  asm volatile("mcr p15, 0, %0, c2, c0, 2" ::"r"(zero));                 // TTBCR: one table
   asm volatile("mcr p15, 0, %0, c2, c0, 0" ::"r"(__translation_table));  // TTBR0
-  asm volatile("mcr p15, 0, %0, c3, c0, 0" ::"r"(1));     // DACR: domain 0 is checked
+  asm volatile("mcr p15, 0, %0, c3, c0, 0" ::"r"(1));                    // DACR: domain 0 is checked
   asm volatile("dsb\n\tisb" ::: "memory");
   std::uint32_t control;  // SCTLR
   asm volatile("mrc p15, 0, %0, c1, c0, 0" : "=r"(control));
-  control |= 1u << 0 | 1u << 1 | 1u << 2 | 1u << 11 | 1u << 12;  // MMU, alignment check, data cache, prediction, code cache
+  // MMU, alignment check, data cache, branch prediction, instruction cache.
+  control |= 1u << 0 | 1u << 1 | 1u << 2 | 1u << 11 | 1u << 12;
   asm volatile("mcr p15, 0, %0, c1, c0, 0\n\tisb" ::"r"(control) : "memory");
 }
 

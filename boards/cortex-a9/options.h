@@ -14,8 +14,8 @@ struct Options {
   bool hold = false;  // after the first step already
 };
 
-/// Of a command line that begins with the program's name. Empty, or the first word that is wrong; `options` has then what
-/// came before it.
+/// Of a command line that begins with the program's name. Empty, or the first word that is wrong; `options` has then
+/// what came before it.
 std::string_view read_options(std::string_view command_line, Options& options);
 
 }  // namespace usuzumi::boards::cortex_a9

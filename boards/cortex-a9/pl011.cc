@@ -5,8 +5,8 @@ namespace {
 
 // DDI 0183, section 3.2.
 constexpr std::uint32_t kDr = 0x000, kFr = 0x018, kIbrd = 0x024, kFbrd = 0x028, kLcrH = 0x02C, kCr = 0x030;
-constexpr std::uint32_t kFrRxfe = 1u << 4, kFrTxff = 1u << 5;          // receive FIFO empty, transmit FIFO full
-constexpr std::uint32_t kLcrHFen = 1u << 4, kLcrHWlen8 = 3u << 5;      // FIFOs, eight bits
+constexpr std::uint32_t kFrRxfe = 1u << 4, kFrTxff = 1u << 5;      // receive FIFO empty, transmit FIFO full
+constexpr std::uint32_t kLcrHFen = 1u << 4, kLcrHWlen8 = 3u << 5;  // FIFOs, eight bits
 constexpr std::uint32_t kCrUarten = 1u << 0, kCrTxe = 1u << 8, kCrRxe = 1u << 9;
 // UARTCLK 24 MHz / (16 * 115200) = 13 + 1/64, nearly.
 constexpr std::uint32_t kDivisorWhole = 13, kDivisor64ths = 1;
@@ -40,8 +40,8 @@ bool Pl011::put(char c) {
   return false;
 }
 
-std::optional<char> Pl011::receive() {
-  if ((registers_.read(kFr) & kFrRxfe) != 0) return std::nullopt;
+char Pl011::receive() {
+  if ((registers_.read(kFr) & kFrRxfe) != 0) return '\0';
   return static_cast<char>(registers_.read(kDr) & 0xFFu);
 }
 

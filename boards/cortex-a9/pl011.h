@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "boards/cortex-a9/registers.h"
@@ -17,8 +16,8 @@ class Pl011 {
   /// Sends what the line takes. A transmitter that stands still costs a few milliseconds once, then the text is dropped
   /// until it moves again: the console never stops the instrument.
   void print(std::string_view text);
-  /// A byte that has come, if one has.
-  std::optional<char> receive();
+  /// A byte that has come; 0, which nobody sends, where there is none.
+  char receive();
 
  private:
   bool put(char c);

@@ -12,12 +12,12 @@ constexpr std::uint32_t kAllLines = 0xFF;
 
 void Pl061::start(std::uint32_t outputs, std::uint32_t watched) {
   registers_.write(kIe, 0);
-  registers_.write(kAfsel, 0);                   // software drives the lines, no other peripheral
-  registers_.write(data_of(outputs), 0);         // low before they are outputs: no flash of light
+  registers_.write(kAfsel, 0);            // software drives the lines, no other peripheral
+  registers_.write(data_of(outputs), 0);  // low before they are outputs: no flash of light
   registers_.write(kDir, outputs);
-  registers_.write(data_of(outputs), 0);         // and after, for a line that was an input takes no data
-  registers_.write(kIs, 0);                      // edges
-  registers_.write(kIbe, watched);               // both
+  registers_.write(data_of(outputs), 0);  // and after, for a line that was an input takes no data
+  registers_.write(kIs, 0);               // edges
+  registers_.write(kIbe, watched);        // both
   registers_.write(kIc, kAllLines);
   registers_.write(kIe, watched);
 }

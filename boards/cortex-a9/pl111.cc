@@ -10,9 +10,9 @@ constexpr std::uint32_t kTiming0 = 0x000, kTiming1 = 0x004, kTiming2 = 0x008, kU
 // LCDControl.
 constexpr std::uint32_t kEn = 1u << 0, kTft = 1u << 5, kPwr = 1u << 11;
 constexpr std::uint32_t kBpp24 = 5u << 1, kBpp565 = 6u << 1;
-constexpr std::uint32_t kBgr = 1u << 8;               // red in the upper bits, as the engine writes it
-constexpr std::uint32_t kVCompBackPorch = 1u << 12;   // after the start of vertical sync, where the base is taken over
-constexpr std::uint32_t kWatermark8 = 1u << 16;       // fetches as soon as eight words are free
+constexpr std::uint32_t kBgr = 1u << 8;              // red in the upper bits, as the engine writes it
+constexpr std::uint32_t kVCompBackPorch = 1u << 12;  // after the start of vertical sync, where the base is taken over
+constexpr std::uint32_t kWatermark8 = 1u << 16;      // fetches as soon as eight words are free
 
 // LCDRIS, LCDIMSC, LCDICR.
 constexpr std::uint32_t kFifoUnderflow = 1u << 1, kBaseTaken = 1u << 2, kVCompare = 1u << 3, kBusError = 1u << 4;
@@ -35,8 +35,8 @@ Status Pl111::check_mode(const Scanout& scanout) {
 
 void Pl111::start(const Scanout& scanout) {
   registers_.write(kControl, 0);
-  registers_.write(kTiming0, (scanout.width / kWidthUnit - 1) << 2 | (kHsw - 1) << 8 | (kHfp - 1) << 16 |
-                                 (kHbp - 1) << 24);
+  registers_.write(kTiming0,
+                   (scanout.width / kWidthUnit - 1) << 2 | (kHsw - 1) << 8 | (kHfp - 1) << 16 | (kHbp - 1) << 24);
   registers_.write(kTiming1, (scanout.height - 1) | (kVsw - 1) << 10 | kVfp << 16 | kVbp << 24);
   registers_.write(kTiming2, (scanout.width - 1) << 16 | 1u << 26);  // CPL; BCD: the panel clock is CLCDCLK undivided
   registers_.write(kUpBase, scanout.picture[0]);

@@ -12,8 +12,8 @@ namespace usuzumi::boards::cortex_a9 {
 
 class Pl111 {
  public:
-  static constexpr std::uint32_t kMaxSize = 1024;   // pixels, either way
-  static constexpr std::uint32_t kWidthUnit = 16;   // the register counts pixels in sixteens
+  static constexpr std::uint32_t kMaxSize = 1024;  // pixels, either way
+  static constexpr std::uint32_t kWidthUnit = 16;  // the register counts pixels in sixteens
 
   explicit constexpr Pl111(Registers registers) : registers_(registers) {}
 

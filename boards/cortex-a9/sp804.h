@@ -11,15 +11,15 @@ class Sp804 {
  public:
   /// TIMCLK.
   static constexpr std::uint32_t kClockHz = 1'000'000;
-  /// From the start to the counter's first wrap: soon, so that every run goes through one, and not only after 71 minutes.
+  /// From the start to the counter's first wrap: soon, so that every run goes through one, not only one of 71 minutes.
   static constexpr std::uint32_t kFirstWrapUs = 1'000'000;
 
   explicit constexpr Sp804(Registers registers) : counter_(registers), alarm_(registers.part(0x20)) {}
 
   void start();
 
-  /// Since start(). 32 bits of counter are made 64 by adding up differences, so it must be asked once in 71 minutes: the
-  /// main loop does, frame by frame. Interrupts are masked meanwhile.
+  /// Since start(). 32 bits of counter are made 64 by adding up differences, so it must be asked once in 71 minutes:
+  /// the main loop does, frame by frame. Interrupts are masked meanwhile.
   std::uint64_t now_ns();
 
   /// One interrupt after `us`, which alarm_rang() then tells until the next set_alarm().
