@@ -60,7 +60,7 @@ constexpr std::array<BoardDescription, 5> kBoards{{
      .depth_format = command::DepthFormat::kUnorm24},
     {.name = "linux-arm64",
      .ram_bytes = 32 * kMiB,
-     .vram_bytes = 16 * kMiB,
+     .vram_bytes = 32 * kMiB,
      .cpu_hz = 650'000'000,
      .engine_hz = 200'000'000,
      .bus_bytes_per_second = 2'132'000'000,
