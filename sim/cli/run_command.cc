@@ -41,6 +41,7 @@ struct RunOptions {
   std::string rom;
   std::string board = "host-sim";
   std::string size;
+  std::string format;
   std::uint32_t frames = 1;
   bool orbit = false;
   std::string camera;
@@ -65,6 +66,9 @@ DeskConfig desk_config(const RunOptions& options) {
     config.width = size.width;
     config.height = size.height;
   }
+  if (!options.format.empty())
+    config.board.pixel_format =
+        options.format == "rgb565" ? command::PixelFormat::kRgb565 : command::PixelFormat::kXrgb8888;
   config.engine = options.engine == "osmesa" ? EngineKind::kOsmesa : EngineKind::kSoft;
   config.threads = options.threads;
   if (!options.gpio.empty()) config.pins = parse_frame_script("--gpio", options.gpio, kPinNames);
@@ -250,6 +254,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(board_names))
       ->capture_default_str();
   command->add_option("--size", options->size, "Picture, WIDTHxHEIGHT in pixels; without it the board's panel");
+  command->add_option("--format", options->format, "Pixels; without it the board's")
+      ->check(CLI::IsMember({"xrgb8888", "rgb565"}));
   command->add_option("--frames", options->frames, "Frames to draw")
       ->transform(whole_number(1, kMostFrames))
       ->capture_default_str();

@@ -139,6 +139,18 @@ TEST_F(RunCommand, RunsOnTheSmallBoardAtItsPanelsSize) {
   EXPECT_LE(report["ram_peak_bytes"].get<int>(), 2 << 20);
 }
 
+TEST_F(RunCommand, DrawsInThePixelFormatThatIsAskedFor) {
+  const auto pixels = [&](const std::string& options) {
+    const Ran ran = usuzumi("run hills.rom --board small --background 112233 --stats stats.json " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return json_file("stats.json")["frames"][0]["crc32"];
+  };
+  const auto panel = pixels("");
+  EXPECT_EQ(pixels("--format rgb565"), panel) << "the board's own";
+  EXPECT_NE(pixels("--size 240x136 --format xrgb8888"), pixels("--size 240x136 --format rgb565"));
+  expect_one_line_error(usuzumi("run hills.rom --format bgr565"), 2, "--format");
+}
+
 TEST_F(RunCommand, AnswersBadInputWithOneLine) {
   expect_one_line_error(usuzumi("run nothing.rom"), 3, "nothing.rom");
   expect_one_line_error(usuzumi("run hills.obj"), 3, "hills.obj");
@@ -245,7 +257,7 @@ TEST_F(RunCommand, ChoosesByNameAsPackDoes) {
 }
 
 TEST_F(RunCommand, TakesNoEmptyValueForAnOptionLeftOut) {
-  for (const char* option : {"--size", "--out", "--stats", "--camera", "--quota", "--policy", "--background"})
+  for (const char* option : {"--size", "--format", "--out", "--stats", "--camera", "--quota", "--policy", "--background"})
     expect_one_line_error(usuzumi(std::string("run hills.rom ") + option + " ''"), 2, option);
   expect_one_line_error(usuzumi("compare hills.rom hills.rom --diff ''"), 2, "--diff");
   expect_one_line_error(usuzumi("pack '' -o out.rom"), 2, "INPUT");
