@@ -85,7 +85,7 @@ def compare_step(board, line, expected, folder, name, rgb565=False):
 def turn(bench, name, options, expected, rgb565=False):
     """A turn around the model, frame by frame. Its lines, and the machine's memory use at its end."""
     lines = []
-    with bench.machine(f"--frames {FRAMES} --orbit --hold {options}", bench.context.rom) as board:
+    with bench.machine(f"--frames {len(expected)} --orbit --hold {options}", bench.context.rom) as board:
         board.resume()
         for record in expected:
             line = board.wait_for_line(f"frame {record['frame']} ")
@@ -336,11 +336,14 @@ def run(context):
     expected = context.expected_frames(FRAMES)
     lines, memory, _ = turn(bench, "xrgb8888", "", expected)
     compared = len(lines)
+    expected = context.expected_frames(FRAMES, "--format", "rgb565")
+    lines_565, _, boot_565 = turn(bench, "rgb565", "--rgb565", expected, rgb565=True)
+    require("rgb565 depth=24" in boot_565, f"not what was asked for: {boot_565}")
     # 1024 x 1024 leaves no room for more than 16 bits a pixel: the simulator and the board come to that by themselves.
-    expected_565 = context.expected_frames(FRAMES, "--size", "1024x1024")
-    lines_565, _, boot_565 = turn(bench, "rgb565", "--size 1024x1024", expected_565, rgb565=True)
-    require("rgb565 depth=16" in boot_565 and "VRAM is short" in boot_565, f"VRAM is not said to be short: {boot_565}")
-    compared += len(lines_565)
+    expected = context.expected_frames(2, "--size", "1024x1024")
+    lines_short, _, boot_short = turn(bench, "vram-short", "--size 1024x1024", expected, rgb565=True)
+    require("rgb565 depth=16" in boot_short and "VRAM is short" in boot_short, f"VRAM is not said short: {boot_short}")
+    compared += len(lines_565) + len(lines_short)
 
     compared += pins_step_by_step(bench)
     notes = list(pins_running(bench))
