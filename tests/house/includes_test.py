@@ -12,8 +12,7 @@ HAL_BASE = [f"hal/include/hal/{name}" for name in
 # folder -> what its files may include, by the first words of its path. The longest folder that fits rules.
 HOSTED = "hosted"  # the whole C++ library and other libraries
 # A board puts the firmware together with the software engine; its second program plays the goldens.
-BOARD = [HAL, "firmware/", "gfx_subsystem/engine/", "gfx_subsystem/engine_soft/", "boards/", "tests/golden/player/",
-         "tests/golden/bundle.h"]
+BOARD = [HAL, "firmware/", "gfx_subsystem/engine/", "gfx_subsystem/engine_soft/", "boards/", "tests/golden/player/"]
 ALLOWED = {
     "hal/include": HAL_BASE + [HAL + "hal/clock.h", HAL + "hal/display.h", HAL + "hal/pins.h"],
     "hal/include/hal/drivers": [HAL],
