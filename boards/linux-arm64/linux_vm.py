@@ -47,7 +47,10 @@ def fetch_kernel(cache: pathlib.Path) -> pathlib.Path:
         raise VmError(f"apt knows no {KERNEL_PACKAGE}:arm64: bash sim/install.sh boards, then apt-get update")
     partial = cache / "partial"  # a download that breaks off leaves nothing that a later run would take
     partial.mkdir(exist_ok=True)
-    run(["apt-get", "download", name.group(1)], timeout=600, cwd=partial)
+    try:
+        run(["apt-get", "download", name.group(1)], timeout=600, cwd=partial)
+    except VmError as error:
+        raise VmError(f"{error}; apt's lists may be old: apt-get update") from error
     for package in partial.glob("*.deb"):
         package.rename(cache / package.name)
     return fetch_kernel(cache)

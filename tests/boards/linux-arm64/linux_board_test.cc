@@ -159,6 +159,7 @@ TEST_F(LinuxBoardTest, AStopEndsAfterTheStepAndLeavesTheConsoleDarkOfUs) {
   ASSERT_TRUE(open().ok());
   kernel_.card.on_flip = [](std::uint32_t flips) { stop = flips >= 4; };
   EXPECT_EQ(run(0), 0) << "without an end but the stop";
+  EXPECT_EQ(lines_.size(), 4u) << "boot and three frames: the first of them takes two flips";
   EXPECT_TRUE(light());
   board_.close();
   EXPECT_FALSE(light());

@@ -203,12 +203,17 @@ int FakeKernel::do_wait_readable(int file, int) {
 
 std::ptrdiff_t FakeKernel::do_read(int file, void* into, std::size_t bytes) {
   if (!files_.contains(file) || pending_flip_ == 0 || bytes < 2 * sizeof(drm_event_vblank)) return -EAGAIN;
-  card.shown_frame_buffer = pending_flip_;
-  pending_flip_ = 0;
-  // Another program's event before ours, as the kernel may hand out both in one read.
+  // Another program's events come before ours, alone and in one read with it, as the kernel hands them out.
   drm_event_vblank events[2]{};
   events[0].base = {DRM_EVENT_VBLANK, sizeof(drm_event_vblank)};
   events[1].base = {DRM_EVENT_FLIP_COMPLETE, sizeof(drm_event_vblank)};
+  blank_told_ = !blank_told_;
+  if (blank_told_) {
+    std::memcpy(into, events, sizeof events[0]);
+    return sizeof events[0];
+  }
+  card.shown_frame_buffer = pending_flip_;
+  pending_flip_ = 0;
   std::memcpy(into, events, sizeof events);
   return sizeof events;
 }

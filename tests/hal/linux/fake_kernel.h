@@ -80,7 +80,7 @@ class FakeKernel final : public Kernel {
   std::map<void*, std::uint32_t> mappings_;             // address -> handle
   std::uint32_t next_id_ = 100;
   std::uint32_t pending_flip_ = 0;  // frame buffer
-  bool master_ = false;
+  bool master_ = false, blank_told_ = false;
 };
 
 /// A mode of that size, progressive, 60 Hz.
