@@ -32,9 +32,9 @@ int exit_code_of(const Status& status);
 ///
 /// in one line; ram is the most that was in use so far. Then, where it applies, dropped=2 halvings=1 (RAM was short),
 /// wake_us=33412 (ignition to light) and fault="...". Before the first frame: "boot 800x480 xrgb8888 depth=24
-/// vram=4608000", where VRAM was short with what was reduced. A boot that fails: "error: ..." and the exit code; the safe
-/// picture is then shown if the display works and the ignition is on, and step_done() called once, so that a test can
-/// see it.
+/// vram=4608000", where VRAM was short with what was reduced. A boot that fails: "error: ..." and the exit code; the
+/// safe picture is then shown if the display works and the ignition is on, and step_done() called once, so that a test
+/// can see it.
 int run(Board& board, const BoardMemory& memory, const RunConfig& config);
 
 }  // namespace usuzumi::boards
