@@ -54,22 +54,43 @@ def check(condition, what):
 
 
 def make_package(context):
-    """The unpacked package's folder."""
-    for old in context.build.glob("usuzumi-device_*.tar.gz"):
+    """The unpacked package's folder. The .tar.gz, the .deb and the installed tree hold the same files."""
+    for old in context.build.glob("usuzumi-device_*"):
         old.unlink()
-    command(["cpack", "-G", "TGZ"], cwd=context.build)
-    packages = list(context.build.glob("usuzumi-device_*_arm64.tar.gz"))
-    check(len(packages) == 1, f"cpack made {len(packages)} packages in {context.build}, not one")
-    with tarfile.open(packages[0]) as tar:
-        files = {m.name.removeprefix("./"): m.mode & 0o777 for m in tar.getmembers() if not m.isdir()}
-        check(files == PACKAGE_FILES, f"{packages[0].name} holds {files}, not {PACKAGE_FILES}")
-        tree = context.work / "package"
-        shutil.rmtree(tree, ignore_errors=True)
+    command(["cpack", "-G", "TGZ;DEB"], cwd=context.build)
+    tree = context.work / "package"
+    shutil.rmtree(tree, ignore_errors=True)
+    with tarfile.open(the_package(context, "tar.gz")) as tar:
+        check_files("the .tar.gz", {m.name.removeprefix("./"): m.mode & 0o777 for m in tar.getmembers() if not m.isdir()})
         tar.extractall(tree)
+    deb = context.work / "deb"
+    shutil.rmtree(deb, ignore_errors=True)
+    command(["dpkg-deb", "-x", the_package(context, "deb"), deb])
+    check_files("the .deb", files_below(deb))
+    fields = command(["dpkg-deb", "-f", the_package(context, "deb"), "Architecture", "Depends"]).decode()
+    check("Architecture: arm64" in fields and "libgpiod" in fields, f"the .deb says:\n{fields}")
+    root = context.work / "root"
+    shutil.rmtree(root, ignore_errors=True)
+    command(["cmake", "--install", context.build, "--component", "device", "--prefix", root])
+    check_files("the installed tree", files_below(root))
     machine = command(["aarch64-linux-gnu-readelf", "-h", tree / "usr/bin/usuzumi-device"]).decode()
     check("AArch64" in machine, f"the package's program is not for AArch64:\n{machine}")
     check_unit(tree / "usr/lib/systemd/system/usuzumi-device.service")
     return tree
+
+
+def the_package(context, ending):
+    packages = list(context.build.glob(f"usuzumi-device_*_arm64.{ending}"))
+    check(len(packages) == 1, f"cpack made {len(packages)} packages .{ending} in {context.build}, not one")
+    return packages[0]
+
+
+def files_below(folder):
+    return {str(path.relative_to(folder)): path.stat().st_mode & 0o777 for path in folder.rglob("*") if path.is_file()}
+
+
+def check_files(what, files):
+    check(files == PACKAGE_FILES, f"{what} holds {files}, not {PACKAGE_FILES}")
 
 
 def check_unit(unit):
@@ -296,6 +317,8 @@ def run(context):
     errors = safe_pictures(context, image, initramfs) + refusals(context, image, initramfs)
     goldens(context)
     sizes = command(["aarch64-linux-gnu-size", tree / "usr/bin/usuzumi-device"]).decode().splitlines()[1].split()
-    notes = [boot, f"{crcs} screendumps equal the simulator's pictures; {len(errors)} refusals, each one line:", *errors]
+    (context.work / "refusals.txt").write_text("".join(f"{line}\n" for line in errors))
+    notes = [boot, f"{crcs} screendumps equal the simulator's pictures, the pins and lights its own",
+             f"{len(errors)} refusals, each one line and its exit code: {context.work / 'refusals.txt'}"]
     return {"wall_s": time.monotonic() - start, "crcs": crcs, "code_bytes": int(sizes[0]), "ram_bytes": ram,
             "instructions_per_frame": None, "notes": notes}
