@@ -75,13 +75,14 @@ std::uint32_t shown_crc32(const firmware::Device& device, const BusMemory& bus) 
   return pixels.data() != nullptr ? picture_crc32(scanout, pixels) : 0;
 }
 
-void print_step(Board& board, const Parts& parts, std::uint32_t frame, const firmware::StepReport& step) {
+void print_step(Board& board, const Parts& parts, bool signature, std::uint32_t frame,
+                const firmware::StepReport& step) {
   const firmware::FrameReport& f = step.frame;
   const firmware::ThinningReport& t = f.thinning;
   TextLine line;
   line.text("frame ").number(frame).text(" ").text(shown_name(step.shown)).text(" ").text(draw_mode_name(step.mode));
   line.text(" light=").number(step.backlight ? 1 : 0);
-  line.text(" crc32=").hex(shown_crc32(parts.instrument.device(), parts.bus));
+  if (signature) line.text(" crc32=").hex(shown_crc32(parts.instrument.device(), parts.bus));
   line.text(" meshes=").number(t.meshes_in).text("->").number(t.meshes_out);
   line.text(" faces=").number(t.faces_in).text("->").number(t.faces_out).text(" drawn=").number(f.faces_drawn);
   line.text(" ram=").number(parts.instrument.device().ram_peak_bytes());
@@ -134,7 +135,8 @@ int run(Board& board, const BoardMemory& memory, const RunConfig& config) {
   print_boot(board, device, config);
   const firmware::Bounds bounds = firmware::bounds_of(device.drawing_data());
   for (std::uint32_t frame = 0; config.frames == 0 || frame < config.frames; ++frame) {
-    print_step(board, parts, frame, parts.instrument.step(request_of(device, bounds, frame, config)));
+    print_step(board, parts, config.signature, frame,
+               parts.instrument.step(request_of(device, bounds, frame, config)));
     board.step_done();
     if (board.stop_wanted()) break;
   }

@@ -17,6 +17,7 @@ struct RunConfig {
   std::uint32_t frames = 0;                 // steps to take; 0: for ever
   bool orbit = false;                       // the model turns once in `frames`
   Rgba8 background = rgba8(32, 36, 40);
+  bool signature = true;                    // crc32= in each line; the CPU reads every picture back for it
 };
 
 /// As the usuzumi command's.

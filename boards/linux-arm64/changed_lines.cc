@@ -5,11 +5,12 @@
 namespace usuzumi::linux_arm64 {
 
 bool ChangedLines::is_news(std::string_view line) {
-  constexpr std::string_view kFrame = "frame ", kNumbers = " crc32=", kFault = " fault=";
+  constexpr std::string_view kFrame = "frame ", kSignature = " crc32=", kNumbers = " meshes=", kFault = " fault=";
   if (!line.starts_with(kFrame)) return true;
   line.remove_prefix(std::min(line.find(' ', kFrame.size()), line.size()));  // each frame has its own number
-  if (line.find(kNumbers) == line.npos) return true;  // no frame's line after all
-  const std::string_view state = line.substr(0, line.find(kNumbers));
+  const std::size_t end = std::min(line.find(kSignature), line.find(kNumbers));
+  if (end == line.npos) return true;  // no frame's line after all
+  const std::string_view state = line.substr(0, end);
   const std::size_t fault = line.find(kFault);
   std::array<char, 320> words;
   std::size_t size = 0;

@@ -10,6 +10,9 @@ TEST(ChangedLines, AFramesNumbersAreNoNews) {
   EXPECT_TRUE(lines.is_news("frame 0 picture thinned light=1 crc32=00000001 faces=9->5\n"));
   EXPECT_FALSE(lines.is_news("frame 1 picture thinned light=1 crc32=00000002 faces=8->4\n"));
   EXPECT_FALSE(lines.is_news("frame 10 picture thinned light=1 crc32=00000002 faces=8->4\n"));
+  EXPECT_FALSE(lines.is_news("frame 11 picture thinned light=1 meshes=5->4 faces=8->4\n")) << "without a signature";
+  EXPECT_FALSE(lines.is_news("frame 12 picture thinned light=1 meshes=5->3 faces=8->3\n"));
+  EXPECT_TRUE(lines.is_news("frame 13 picture budget light=1 meshes=5->3 faces=8->3\n"));
 }
 
 TEST(ChangedLines, WhatIsShownModeLightAndFaultAre) {
