@@ -14,8 +14,8 @@ void Sp804::start() {
   counter_.write(kControl, 0);
   alarm_.write(kControl, 0);
   counter_.write(kLoad, kFirstWrapUs);
-  counter_.write(kBgLoad, 0xFFFFFFFFu);  // what it goes on with at zero
   counter_.write(kControl, kSize32 | kPeriodic | kEnable);
+  counter_.write(kBgLoad, 0xFFFFFFFFu);  // what it goes on from at zero; earlier, QEMU would begin with it
   last_count_ = counter_.read(kValue);
   elapsed_us_ = 0;
 }

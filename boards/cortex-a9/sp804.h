@@ -11,8 +11,9 @@ class Sp804 {
  public:
   /// TIMCLK.
   static constexpr std::uint32_t kClockHz = 1'000'000;
-  /// From the start to the counter's first wrap: soon, so that every run goes through one, not only one of 71 minutes.
-  static constexpr std::uint32_t kFirstWrapUs = 1'000'000;
+  /// From the start to the counter's first wrap: while the first picture is drawn, so that every run measures a time
+  /// through one, not only a run of 71 minutes.
+  static constexpr std::uint32_t kFirstWrapUs = 50'000;
 
   explicit constexpr Sp804(Registers registers) : counter_(registers), alarm_(registers.part(0x20)) {}
 

@@ -1,11 +1,14 @@
-// Does on demand what a program must not do, so that a test can see it caught: the command line names the deed.
+// Does on demand what a program must not do, so that a test can see it caught: the command line names the deed. One
+// deed must not be caught: floats are computed while interrupts spoil their registers.
 #include <cstdint>
 #include <new>
 #include <string_view>
 
 #include "boards/bare_metal/semihosting.h"
 #include "boards/cortex-a9/cortex_a9_board.h"
+#include "boards/cortex-a9/gic.h"
 #include "boards/cortex-a9/memory_map.h"
+#include "boards/cortex-a9/sp804.h"
 
 namespace {
 
@@ -25,6 +28,35 @@ volatile std::uint32_t* pointer_to(std::uintptr_t address) {
   volatile std::uint32_t frame[64] = {};
   frame[depth % 64] = depth;
   return endless(depth + 1) + frame[(depth + 1) % 64];
+}
+
+/// What interrupts while floats are computed, and leaves none of the registers that a function may change as it was.
+void clobber_floats(void* timers) {
+  static_cast<Sp804*>(timers)->on_interrupt();
+  static_cast<Sp804*>(timers)->set_alarm(50);
+  asm volatile(
+      "vmov.i32 q0, #7\n\tvmov q1, q0\n\tvmov q2, q0\n\tvmov q3, q0\n\tvmov q8, q0\n\tvmov q9, q0\n\tvmov q10, q0\n\t"
+      "vmov q11, q0\n\tvmov q12, q0\n\tvmov q13, q0\n\tvmov q14, q0\n\tvmov q15, q0" ::
+          : "q0", "q1", "q2", "q3", "q8", "q9", "q10", "q11", "q12", "q13", "q14", "q15");
+}
+
+/// Singles live in d0 to d7 here, doubles in d16 to d31.
+[[gnu::noinline]] double many_floats() {
+  float a = 1.0f + static_cast<float>(g_zero), b = a + 0.5f, c = a + 0.25f, d = a + 0.125f;
+  double e = a, f = b, g = c, h = d;
+  for (std::uint32_t i = 0; i < 200'000; ++i) {
+    a = a * 0.75f + b, b = b * 0.5f + c, c = c * 0.25f + d, d = d * 0.125f + 1.0f;
+    e = e * 0.75 + f, f = f * 0.5 + g, g = g * 0.25 + h, h = h * 0.125 + 1.0;
+  }
+  return static_cast<double>(a + b + c + d) + e + f + g + h;
+}
+
+bool interrupts_keep_floats() {
+  const double undisturbed = many_floats();
+  static Sp804 timers{Registers(kTimers01)};
+  connect_interrupt(kTimers01Interrupt, {clobber_floats, &timers});
+  timers.set_alarm(50);
+  return many_floats() == undisturbed;
 }
 
 bool commit(std::string_view deed) {
@@ -49,6 +81,7 @@ int main() {
   char buffer[256];
   std::string_view deed = semihosting::command_line(buffer);
   deed.remove_prefix(deed.rfind(' ') + 1);
-  board.print(commit(deed) ? "nothing has stopped it\n" : "no such deed\n");
+  if (deed == "keep-floats") board.print(interrupts_keep_floats() ? "floats are kept\n" : "floats are spoilt\n");
+  else board.print(commit(deed) ? "nothing has stopped it\n" : "no such deed\n");
   return 0;
 }
