@@ -172,7 +172,11 @@ class _Channel:
                 self._socket.connect(str(path))
                 return
             except OSError:
-                machine.check_running(f"opening {name}")
+                try:
+                    machine.check_running(f"opening {name}")
+                except QemuError:
+                    self._socket.close()
+                    raise
                 time.sleep(0.01)
 
     def send(self, data: bytes) -> None:
