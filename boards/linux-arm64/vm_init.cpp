@@ -2,8 +2,8 @@
 // off.
 //
 // Behind "--" on the kernel's command line stands a file with a program and its arguments in every line; before these
-// words may stand `user=N`, a user and group to run as, `stop_ms=N`, when to send SIGTERM, and `beside_ms=N`, after
-// which the next program is run beside it.
+// words may stand `user=N`, a user and group to run as, `stop`, to send SIGTERM when a byte comes from the console, and
+// `beside`, to run the next program beside this one then.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -61,8 +61,7 @@ void make_console_raw() {
 
 struct Order {
   const char* user = nullptr;
-  const char* stop_ms = nullptr;
-  const char* beside_ms = nullptr;
+  bool stop = false, beside = false;
   char* words[40] = {};  // of the program, a null at the end
 };
 
@@ -71,8 +70,8 @@ Order order_of(char* line) {
   std::size_t count = 0;
   for (char* word = std::strtok(line, " \n"); word != nullptr; word = std::strtok(nullptr, " \n")) {
     if (count == 0 && std::strncmp(word, "user=", 5) == 0) order.user = word + 5;
-    else if (count == 0 && std::strncmp(word, "stop_ms=", 8) == 0) order.stop_ms = word + 8;
-    else if (count == 0 && std::strncmp(word, "beside_ms=", 10) == 0) order.beside_ms = word + 10;
+    else if (count == 0 && std::strcmp(word, "stop") == 0) order.stop = true;
+    else if (count == 0 && std::strcmp(word, "beside") == 0) order.beside = true;
     else if (count + 1 < sizeof order.words / sizeof *order.words) order.words[count++] = word;
   }
   return order;
@@ -92,14 +91,13 @@ Order order_of(char* line) {
 void run(const Order& order) {
   const pid_t child = fork();
   if (child == 0) become(order);
-  if (order.beside_ms != nullptr) {
-    sleep_ms(std::strtol(order.beside_ms, nullptr, 10));
-    return;
+  if (order.stop || order.beside) {
+    char byte;
+    while (read(STDIN_FILENO, &byte, 1) < 0 && errno == EINTR) {
+    }
   }
-  if (order.stop_ms != nullptr) {
-    sleep_ms(std::strtol(order.stop_ms, nullptr, 10));
-    kill(child, SIGTERM);
-  }
+  if (order.beside) return;
+  if (order.stop) kill(child, SIGTERM);
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status)) std::printf("exit %d\n", WEXITSTATUS(status));
