@@ -302,8 +302,8 @@ def traps(bench):
 
 
 def without_debugger(bench, safe_png):
-    """On a board that nobody watches semihosting is refused: the instrument runs for ever, and a missing image leaves
-    the safe picture lit."""
+    """On a board that nobody watches semihosting is refused: the instrument runs for ever, a missing image leaves the
+    safe picture lit, a trap says its words on the console and is dark."""
     with bench.machine(rom=bench.context.rom, debugger=False) as board:
         board.resume()
         board.wait_for_line("frame 2 picture thinned light=1")
@@ -315,6 +315,12 @@ def without_debugger(bench, safe_png):
         time.sleep(0.3)  # the exit is refused by now
         require(0 not in lights_of(board), "without a debugger: the safe picture's light goes off")
         qemu.compare(qemu.read_png(safe_png), board.screendump(), bench.context.work, "safe-without-debugger")
+    with bench.machine(program="-traps", debugger=False) as board:
+        board.watch_outputs(board.paths_of("pl061")[0])
+        board.resume()
+        board.wait_for_line("trap: operator new: there is no heap, called from 0x001")
+        lights = []
+        wait_for(lambda: lights.extend(lights_of(board)) or lights == [1, 0], "without a debugger: a trap stays lit")
 
 
 def goldens(bench):

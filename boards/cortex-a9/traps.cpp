@@ -81,6 +81,7 @@ int main() {
   char buffer[256];
   std::string_view deed = semihosting::command_line(buffer);
   deed.remove_prefix(deed.rfind(' ') + 1);
+  if (deed.empty()) deed = "new";  // without a debugger there is no command line
   if (deed == "keep-floats") board.print(interrupts_keep_floats() ? "floats are kept\n" : "floats are spoilt\n");
   else board.print(commit(deed) ? "nothing has stopped it\n" : "no such deed\n");
   return 0;

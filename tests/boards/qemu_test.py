@@ -39,13 +39,13 @@ class Pictures(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         numbers, self.rows = 1, []
-        for _ in range(10):
+        for i in range(40):
             row = bytearray()
             for _ in range(7 * 3):
                 numbers = numbers * 1103515245 + 12345 & 0x7FFFFFFF
-                row.append(numbers >> 16 & 255)
+                row.append(numbers >> 16 & (3 if i // 5 % 2 else 255))  # small numbers: predictions that are equally near
             self.rows.append(bytes(row))
-        self.picture = qemu.Picture(7, 10, b"".join(self.rows))
+        self.picture = qemu.Picture(7, 40, b"".join(self.rows))
 
     def file(self, name, data):
         (self.folder / name).write_bytes(data)
@@ -82,13 +82,13 @@ class Pictures(unittest.TestCase):
         other = bytearray(self.picture.rgb)
         other[3 * (4 * 7 + 2) + 1] ^= 0xFF
         other[-1] ^= 1
-        actual = qemu.Picture(7, 10, bytes(other))
+        actual = qemu.Picture(7, 40, bytes(other))
         with self.assertRaisesRegex(qemu.PicturesDiffer, "step: 2 pixels differ, the first at x 2, y 4: expected #"):
             qemu.compare(self.picture, actual, self.folder / "left", "step")
         self.assertEqual(qemu.read_png(self.folder / "left/step.expected.png"), self.picture)
         self.assertEqual(qemu.read_png(self.folder / "left/step.actual.png"), actual)
-        with self.assertRaisesRegex(qemu.PicturesDiffer, "7x10 was expected, this is 10x7"):
-            qemu.compare(self.picture, qemu.Picture(10, 7, self.picture.rgb), self.folder / "left", "size")
+        with self.assertRaisesRegex(qemu.PicturesDiffer, "7x40 was expected, this is 40x7"):
+            qemu.compare(self.picture, qemu.Picture(40, 7, self.picture.rgb), self.folder / "left", "size")
 
     def test_rgb565_loses_its_repeated_bits(self):
         shifted = qemu.shifted_565(qemu.Picture(2, 1, bytes([0xFF, 0xFF, 0xFF, 0x08, 0x04, 0x07])))
