@@ -4,7 +4,7 @@
 - That package's program runs in the virtual machine. After each frame of a drive with ignition and button the screendump
   is the simulator's picture, the CRC-32 its CRC-32, and the backlight's line what it must be.
 - What is missing, damaged or refused gives one line and the documented exit code; the safe picture where there is a
-  display. SIGTERM ends the program with the light off.
+  display. SIGTERM ends the program with the light off and the console's picture back.
 - The golden scenes under qemu-user: instructions are the same, no kernel is needed.
 """
 import pathlib
@@ -276,6 +276,18 @@ def safe_pictures(context, image, initramfs):
     return lines
 
 
+def shows_console(vm, console, tries=20):
+    """Whether the panel shows what it showed before any program, but for the blinking cursor: one cell of 8x16."""
+    for _ in range(tries):
+        panel = vm.screendump()
+        if panel[:2] == console[:2]:
+            differing = sum(panel.rgb[i:i + 3] != console.rgb[i:i + 3] for i in range(0, len(panel.rgb), 3))
+            if differing <= 8 * 16:
+                return True
+        time.sleep(0.1)
+    return False
+
+
 def refusals(context, image, initramfs):
     """Without rights, chip, card or size: one line, exit code 5. Then SIGTERM: dark, exit code 0, or 3 after bad data."""
     lines = []
@@ -287,12 +299,15 @@ def refusals(context, image, initramfs):
             lines.append(error_line(vm, pattern, options))
             check_exit(vm, code)
             check(vm.output(BACKLIGHT) == 0, f"{options}: the backlight is on")
+        console = vm.screendump()
         for beginning, code in (("frame 0 picture", 0), ("error: ", 3)):
             vm.wait_for_line(beginning)
             check(vm.output(BACKLIGHT) == 1, "the backlight is off while the program runs")
+            check(not shows_console(vm, console, tries=1), "the console's picture is shown, not the instrument's")
             vm.send(b"\n")
             check_exit(vm, code)
             check(vm.output(BACKLIGHT) == 0, "SIGTERM leaves the backlight on")
+            check(shows_console(vm, console), "SIGTERM does not bring the console's picture back")
         vm.wait_for_line("frame 0 picture")
         vm.send(b"\n")
         for options, pattern, code in BUSY_CASES:
