@@ -210,8 +210,9 @@ def pins_running(bench):
     for what, value, bound in (("light off", off_light, FRAME_US), ("black", off_black, off_bound),
                                ("light on", on_light, wake_bound + REPORT_US), ("wake_us", wake, wake_bound)):
         require(value <= bound, f"ignition: {what} after {value} us, over {bound}")
-    return (f"ignition off: light off after at most {max(f['light_us'] for f in offs)} us, black sent after {off_black} "
-            f"us, a vertical compare after it was painted",
+    slowest = max(f["light_us"] for f in offs)
+    return (f"ignition off: light off after at most {slowest} us, black sent after {off_black} us, a vertical "
+            f"compare after it was painted",
             f"ignition on: lit after {on_light} us, {WAKE_FRAMES} vertical compares after a drawing of {drawing} us; "
             f"wake_us={wake}")
 

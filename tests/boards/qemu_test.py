@@ -43,7 +43,8 @@ class Pictures(unittest.TestCase):
             row = bytearray()
             for _ in range(7 * 3):
                 numbers = numbers * 1103515245 + 12345 & 0x7FFFFFFF
-                row.append(numbers >> 16 & (3 if i // 5 % 2 else 255))  # small numbers: predictions that are equally near
+                # Small numbers give predictions that are equally near.
+                row.append(numbers >> 16 & (3 if i // 5 % 2 else 255))
             self.rows.append(bytes(row))
         self.picture = qemu.Picture(7, 40, b"".join(self.rows))
 
