@@ -257,8 +257,8 @@ TEST_F(RunCommand, ChoosesByNameAsPackDoes) {
 }
 
 TEST_F(RunCommand, TakesNoEmptyValueForAnOptionLeftOut) {
-  for (const char* option : {"--size", "--format", "--out", "--stats", "--camera", "--quota", "--policy", "--background",
-                             "--gpio", "--fault"})
+  for (const char* option : {"--size", "--format", "--out", "--stats", "--camera", "--quota", "--policy",
+                             "--background", "--gpio", "--fault"})
     expect_one_line_error(usuzumi(std::string("run hills.rom ") + option + " ''"), 2, option);
   expect_one_line_error(usuzumi("compare hills.rom hills.rom --diff ''"), 2, "--diff");
   expect_one_line_error(usuzumi("pack '' -o out.rom"), 2, "INPUT");
