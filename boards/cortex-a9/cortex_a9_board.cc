@@ -84,9 +84,11 @@ void CortexA9Board::do_wait_for_change(std::uint32_t timeout_us) {
   wait_until(timeout_us, [this] { return gpio_.edges() != 0; });
 }
 
+/// The ignition goes off in the midst of whatever the instrument does: it is dark now, not after the picture at hand.
 void CortexA9Board::on_gpio_interrupt() {
   gpio_.on_interrupt();
   drive_backlight();
+  if (!ignition()) display_.darken();
 }
 
 void CortexA9Board::drive_backlight() {

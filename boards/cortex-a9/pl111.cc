@@ -54,6 +54,8 @@ void Pl111::send(BusAddress base) {
   registers_.write(kControl, registers_.read(kControl) | kPwr);
 }
 
+void Pl111::darken() { registers_.write(kControl, registers_.read(kControl) & ~kPwr); }
+
 void Pl111::on_interrupt() {
   const std::uint32_t raw = registers_.read(kRis) & (kVCompare | kBaseTaken);
   if ((raw & kVCompare) == 0) return;

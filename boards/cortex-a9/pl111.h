@@ -24,6 +24,8 @@ class Pl111 {
   void start(const Scanout& scanout);
   /// From the next frame on the picture at `base`, a multiple of 8. Call memory barriers before.
   void send(BusAddress base);
+  /// Black at once, in mid-frame: the colour lines go low until the next send().
+  void darken();
   /// The picture of the last send() is on its way, no other is being fetched.
   bool sent() const { return sent_; }
 

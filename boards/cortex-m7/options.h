@@ -1,7 +1,6 @@
 // What the host asks of the program by semihosting's command line.
 #pragma once
 
-#include <cstdint>
 #include <string_view>
 
 #include "boards/common/run.h"
@@ -14,8 +13,5 @@ inline constexpr std::string_view kUsage = "--frames N, --orbit, --full, --gpio 
 /// Of a command line that begins with the program's name: --frames, --orbit and --full (the button begins at full) go
 /// into `config`, --gpio into `pins`. Empty, or the first word that is wrong.
 std::string_view read_options(std::string_view command_line, RunConfig& config, PinScript& pins);
-
-/// Decimal digits and nothing else; false where there are others, none, or too many.
-bool read_number(std::string_view text, std::uint32_t& number);
 
 }  // namespace usuzumi::boards::cortex_m7

@@ -1,17 +1,14 @@
 #include "boards/cortex-m7/pin_script.h"
 
-#include "boards/cortex-m7/options.h"
+#include "firmware/instrument/frame_event.h"
 
 namespace usuzumi::boards::cortex_m7 {
 
 bool PinScript::read_event(std::string_view text, Event& event) {
-  const std::size_t colon = text.find(':'), equals = text.find('=');
-  if (colon == text.npos || equals == text.npos || equals < colon) return false;
-  const std::string_view name = text.substr(colon + 1, equals - colon - 1), level = text.substr(equals + 1);
-  event.ignition = name == "ignition";
-  event.level = level == "1";
-  return read_number(text.substr(0, colon), event.frame) && (name == "ignition" || name == "mode") &&
-         (level == "0" || level == "1");
+  firmware::FrameEvent read;
+  if (!firmware::read_frame_event(text, read)) return false;
+  event = {read.frame, read.name == "ignition", read.level};
+  return event.ignition || read.name == "mode";
 }
 
 bool PinScript::read(std::string_view text) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "firmware/instrument/frame_event.h"
 #include "sim/common/error.h"
 
 namespace usuzumi::sim {
@@ -20,27 +20,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-/// False where `text` is no event at all.
-bool read_event(std::string_view text, FrameEvent& event) {
-  const std::size_t colon = text.find(':'), equals = text.find('=');
-  if (colon == std::string_view::npos || equals == std::string_view::npos || equals < colon) return false;
-  const std::string_view frame = text.substr(0, colon), level = text.substr(equals + 1);
-  const auto [end, error] = std::from_chars(frame.data(), frame.data() + frame.size(), event.frame);
-  event.name = text.substr(colon + 1, equals - colon - 1);
-  event.level = level == "1";
-  return error == std::errc{} && end == frame.data() + frame.size() && (level == "0" || level == "1");
-}
-
 }  // namespace
 
 std::vector<FrameEvent> parse_frame_script(const std::string& option, std::string_view text,
                                            std::span<const std::string_view> names) {
   std::vector<FrameEvent> events;
   for (const std::string_view part : split(text, ',')) {
-    FrameEvent event;
-    const bool read = read_event(part, event);
+    firmware::FrameEvent event;
+    const bool read = firmware::read_frame_event(part, event);
     if (read && std::find(names.begin(), names.end(), event.name) != names.end()) {
-      events.push_back(event);
+      events.push_back({event.frame, std::string(event.name), event.level});
       continue;
     }
     throw Error(ExitCode::kUsage,

@@ -53,6 +53,18 @@ TEST(Pl111, StartsBlackAndIsPoweredByTheFirstPicture) {
   EXPECT_EQ(words.at(kControl), control | 1u << 11);
 }
 
+TEST(Pl111, IsDarkAtOnceAndUntilTheNextPicture) {
+  Words words;
+  Pl111 display(words.registers());
+  display.start(scanout_of(800, 480, kXrgb8888));
+  display.send(0x01000000);
+  const std::uint32_t lit = words.at(kControl);
+  display.darken();
+  EXPECT_EQ(words.at(kControl), lit & ~(1u << 11)) << "syncs run on, colours are held low";
+  display.send(0x01177000);
+  EXPECT_EQ(words.at(kControl), lit);
+}
+
 TEST(Pl111, Rgb565IsModeSix) {
   Words words;
   Pl111 display(words.registers());
