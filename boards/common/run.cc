@@ -129,7 +129,10 @@ int run(Board& board, const BoardMemory& memory, const RunConfig& config) {
     append_status(line, booted);
     board.print(line.finish());
     board.step_done();
-    return exit_code_of(booted);
+    const int code = exit_code_of(booted);
+    // Without good drawing data the safe picture follows the ignition, for as long as the program is to run.
+    while (code == kExitBadInput && config.frames == 0 && !board.stop_wanted()) parts.instrument.step({});
+    return code;
   }
   const firmware::Device& device = parts.instrument.device();
   print_boot(board, device, config);

@@ -35,7 +35,8 @@ int exit_code_of(const Status& status);
 /// wake_us=33412 (ignition to light) and fault="...". Before the first frame: "boot 800x480 xrgb8888 depth=24
 /// vram=4608000", where VRAM was short with what was reduced. A boot that fails: "error: ..." and the exit code; the
 /// safe picture is then shown if the display works and the ignition is on, and step_done() called once, so that a test
-/// can see it.
+/// can see it. Where nothing but the drawing data are at fault and frames is 0, it goes on following the ignition with
+/// the safe picture until the board is told to stop; all else ends at once.
 int run(Board& board, const BoardMemory& memory, const RunConfig& config);
 
 }  // namespace usuzumi::boards

@@ -12,7 +12,7 @@ namespace usuzumi::boards {
 /// What does not fit is left out; the line end always fits.
 class TextLine {
  public:
-  static constexpr std::size_t kCapacity = 320;
+  static constexpr std::size_t kCapacity = 640;  // a frame's line with the longest fault a driver has words for
 
   TextLine& text(std::string_view s) {
     for (const char c : s)

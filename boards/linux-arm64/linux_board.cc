@@ -17,14 +17,6 @@ void LinuxBoard::close() {
   display_.release();
 }
 
-void LinuxBoard::stand_by() {
-  constexpr std::uint32_t kLookUs = 200'000;
-  while (!stop_wanted()) {
-    set_backlight(read().ignition);
-    wait_for_change(kLookUs);
-  }
-}
-
 std::uint64_t LinuxBoard::do_now_ns() { return linux_hal::monotonic_now_ns(); }
 
 std::uint32_t LinuxBoard::do_stride_bytes(std::uint32_t width, std::uint32_t height, command::PixelFormat format) {

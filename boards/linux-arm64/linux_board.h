@@ -27,8 +27,6 @@ class LinuxBoard final : public boards::Board {
   void pause_after_steps() { pause_ = true; }
   /// Frames' lines are printed only where they tell of a change.
   void print_only_changes() { only_changes_ = true; }
-  /// Leaves the panel as it is, its light following the ignition, until the program is to end.
-  void stand_by();
 
  private:
   std::uint64_t do_now_ns() override;

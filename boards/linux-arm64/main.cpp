@@ -65,8 +65,6 @@ int main(int count, char** arguments) {
   config.signature = options.frames != 0;  // nobody compares a service's pictures, and a card's memory is slow to read
   config.orbit = options.orbit;
   const int code = boards::run(board, memory.memory(), config);
-  // A service that ended would take its safe picture along: it stands until somebody stops it.
-  if (code != boards::kExitOk && options.frames == 0) board.stand_by();
   board.close();
   return code;
 }

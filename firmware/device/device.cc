@@ -34,6 +34,12 @@ Status Device::boot(const DeviceConfig& config) {
   return status;
 }
 
+/// Why the display has no rows for such a picture: it says so itself.
+Status Device::refusal(const Scanout& wanted) {
+  const Status status = ports_.display.start(wanted);
+  return !status.ok() ? status : Status{StatusCode::kUnavailable, "display: no rows of this width", wanted.width};
+}
+
 Result<VramLayout> Device::fit_vram(const DeviceConfig& config) {
   struct Formats {
     command::PixelFormat pixel;
@@ -44,14 +50,15 @@ Result<VramLayout> Device::fit_vram(const DeviceConfig& config) {
   const Formats choices[] = {{config.pixel_format, config.depth_format},
                              {config.pixel_format, smaller},
                              {command::PixelFormat::kRgb565, smaller}};
+  if (config.width == 0 || config.height == 0)
+    return Status{StatusCode::kInvalidArgument, "picture width and height must be 1 to 4096, not", 0};
   Result<VramLayout> first = VramLayout{};
   for (const Formats& f : choices) {
     Scanout wanted{config.width, config.height, f.pixel, 0, {}};
     wanted.stride_bytes = ports_.display.stride_bytes(config.width, config.height, f.pixel);
-    const Result<VramLayout> layout =
-        wanted.stride_bytes > 0
-            ? plan_vram(ports_.vram_base, ports_.vram_bytes, wanted, f.depth)
-            : Status{StatusCode::kUnavailable, "display: has no such picture format; width", config.width};
+    const Result<VramLayout> layout = wanted.stride_bytes > 0
+                                          ? plan_vram(ports_.vram_base, ports_.vram_bytes, wanted, f.depth)
+                                          : refusal(wanted);
     if (layout.ok()) return layout;
     if (first.ok()) first = layout.status();  // what was asked for is what the answer is about
   }

@@ -94,6 +94,7 @@ class Device {
   std::uint64_t ram_peak_bytes() const;
 
  private:
+  Status refusal(const Scanout& wanted);
   /// The layout, in the formats asked for or in the next smaller ones that fit.
   Result<VramLayout> fit_vram(const DeviceConfig& config);
   /// The picture that is not shown, for the CPU to paint; empty without a display.

@@ -9,7 +9,8 @@ namespace usuzumi::firmware {
 
 class Controls {
  public:
-  /// Contacts bounce for some milliseconds; a second press within this time after the first is none.
+  /// Contacts bounce for some milliseconds as they close and as they open: a press that begins within this time after
+  /// the button was last seen down is none.
   static constexpr std::uint64_t kDebounceNs = 50'000'000;
 
   /// Takes the pins as they are at `now_ns`. A press of the button counts once, when it begins, and only while the
@@ -26,8 +27,8 @@ class Controls {
   std::uint32_t presses_ = 0;
   bool ignition_ = false;
   bool button_ = false;
-  bool pressed_before_ = false;
-  std::uint64_t pressed_ns_ = 0;
+  bool down_before_ = false;
+  std::uint64_t last_down_ns_ = 0;
   std::uint64_t ignition_on_ns_ = 0;
 };
 

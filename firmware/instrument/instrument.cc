@@ -14,12 +14,12 @@ Status Instrument::boot(const InstrumentConfig& config) {
   fault_ = ok_status();
   config_ = config;
   controls_ = {};
-  const Status status = device_.boot(config.device);
-  if (status.ok()) return status;
+  booted_ = device_.boot(config.device);
+  if (booted_.ok()) return booted_;
   read_pins();
   StepReport report;
-  if (controls_.ignition()) show_fault(status, report);
-  return status;
+  if (controls_.ignition()) show_fault(booted_, report);
+  return booted_;
 }
 
 void Instrument::read_pins() {
@@ -54,7 +54,8 @@ void Instrument::stay_dark(StepReport& report) {
 void Instrument::draw(const FrameRequest& request, StepReport& report) {
   FrameRequest wanted = request;
   wanted.thinning = after_presses(request.thinning, controls_.presses(), config_.budget);
-  Status status = display_.check();  // of the pictures sent so far
+  Status status = booted_;
+  if (status.ok()) status = display_.check();  // of the pictures sent so far
   if (status.ok()) status = device_.draw_picture(wanted, report.frame);
   read_pins();
   if (!controls_.ignition()) {
@@ -72,7 +73,8 @@ void Instrument::draw(const FrameRequest& request, StepReport& report) {
 
 Status Instrument::light(StepReport& report) {
   if (lit_) return ok_status();
-  const Status status = device_.complete_picture();
+  Status status = device_.complete_picture();
+  if (status.ok()) status = display_.check();  // it was sent whole, and unbroken
   if (!status.ok()) return status;
   pins_.set_backlight(true);
   lit_ = true;
@@ -83,13 +85,16 @@ Status Instrument::light(StepReport& report) {
 void Instrument::show_fault(const Status& fault, StepReport& report) {
   fault_ = report.fault = fault;
   safe_since_ns_ = clock_.now_ns();
-  if (device_.show_safe_picture().ok()) {
+  Status status = device_.show_safe_picture();
+  if (status.ok()) {
     report.shown = Shown::kSafePicture;
     // The broken picture was sent until now; what it did to the display is told already.
     static_cast<void>(display_.check());
-    if (light(report).ok()) return;
+    status = light(report);
+    if (status.ok()) return;
   }
-  // Not even the safe picture reaches the panel: nothing is better than something wrong.
+  // Not even the safe picture reaches the panel: nothing is better than something wrong, and this is what to tell of.
+  fault_ = report.fault = status;
   pins_.set_backlight(false);
   lit_ = false;
   report.shown = Shown::kDark;

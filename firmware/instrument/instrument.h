@@ -41,10 +41,14 @@ struct StepReport {
 /// Pins are read as a step begins and again when its picture is drawn, so that the instrument follows them within a
 /// frame, or within the drawing of one where that takes longer.
 ///
-/// Ignition off: the backlight goes off at once, the display is black from the next vertical blank on; drawing data,
-/// thinned copy and mode stay as they are. Ignition on: the backlight comes on once the first picture has been sent
-/// whole, so that nothing but correct pictures is ever lit. That takes the drawing of one picture (after boot with its
-/// thinning) and at most kWakeFrames frames of the display.
+/// Ignition off: the backlight goes off as soon as the pins are read, the display is black from the next vertical blank
+/// on (a board whose pins interrupt can do both at once, amid a drawing); drawing data, thinned copy and mode stay as
+/// they are. Ignition on: the backlight comes on once the first picture has been sent whole, and unbroken, so that
+/// nothing but correct pictures is ever lit. That takes the drawing of one picture (after boot with its thinning) and at
+/// most kWakeFrames frames of the display.
+///
+/// A fault shows the safe picture: at the end of the step that finds it. A hung engine is found after
+/// DeviceConfig::engine_timeout_us, a display that runs dry in the step after.
 class Instrument {
  public:
   static constexpr std::uint32_t kWakeFrames = 2;
@@ -55,7 +59,7 @@ class Instrument {
       : device_(ports), display_(ports.display), clock_(ports.clock), pins_(pins) {}
 
   /// Dark until the first step. Where it fails for want of good drawing data or memory, with the ignition on, the safe
-  /// picture is shown and lit if the display works.
+  /// picture is shown and lit if the display works; steps then follow the ignition with it.
   Status boot(const InstrumentConfig& config);
 
   /// One turn of the main loop: draws and shows `request`, its thinning stepped on by the button's presses, or what the
@@ -80,6 +84,7 @@ class Instrument {
   InstrumentConfig config_;
   Controls controls_;
   bool lit_ = false;
+  Status booted_;                   // what boot() came to
   Status fault_;                    // while the safe picture is shown
   std::uint64_t safe_since_ns_ = 0;
 };

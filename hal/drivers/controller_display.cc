@@ -17,12 +17,14 @@ LayerFormat layer_format(command::PixelFormat format) {
 
 Status ControllerDisplay::do_start(const Scanout& scanout) {
   scanout_ = scanout;
+  partial_ = false;
   Status status = driver_.probe();
   const auto mode = make_display_mode(scanout.width, scanout.height);
   if (status.ok()) status = mode.status();
   if (status.ok()) status = driver_.set_mode(*mode);
   if (status.ok()) status = configure_layer(scanout.whole(), 0);
   if (status.ok()) status = driver_.show_layer(kLayer, true);
+  if (!status.ok()) return status;
   driver_.set_background(0);
   driver_.enable_picture_signature(true);
   driver_.enable_vertical_blank_interrupt(true);

@@ -26,6 +26,15 @@ constexpr std::uint64_t kFramesToWait = 4;
 /// Steps of virtual time in which the desk looks at the panel, per frame.
 constexpr std::uint64_t kLooksPerFrame = 64;
 
+/// Drawing data of another board are named with theirs.
+void refuse_foreign(const std::string& rom_name, std::span<const std::byte> rom, std::string_view board) {
+  const auto data = firmware::DrawingData::open(rom);
+  if (!data.ok() || data->board().empty() || data->board() == board) return;
+  throw Error(ExitCode::kBadInput, fmt::format("{}: drawing data for board {} alone; run them with --board {}, or pack "
+                                               "them without --board",
+                                               rom_name, data->board(), data->board()));
+}
+
 [[noreturn]] void fail(const std::string& rom_name, const Status& status) {
   const bool input = status.code == StatusCode::kDataLoss || status.code == StatusCode::kUnsupported;
   const char* const remedy = input ? "; pack it again"
@@ -107,6 +116,7 @@ Desk::Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::
   instrument.device.depth_format = complete.board.depth_format;
   parts_->pins.begin_frame(0);
   const Status status = parts_->instrument.boot(instrument);
+  if (status.code == StatusCode::kUnsupported) refuse_foreign(rom_name, rom, complete.board.name);
   if (!status.ok()) fail(rom_name, status);
   parts_->mode = *make_display_mode(complete.width, complete.height);
   parts_->dark = Image(complete.width, complete.height);

@@ -119,9 +119,13 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
                                   [](const FrameRecord& f) { return f.shown == firmware::Shown::kPicture; });
   const FrameRecord& last = drawn != frames.rend() ? *drawn : frames.back();
   const firmware::ThinningReport& t = last.firmware.thinning;
-  text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
-  text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
-                      last.firmware.faces_drawn);
+  if (t.meshes_in > 0) {
+    text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
+    text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
+                        last.firmware.faces_drawn);
+  } else {
+    text += "  nothing was drawn\n";
+  }
   text += fmt::format(
       "  device  thinning {:.2f} ms a frame ({:.2f} ms the longest), drawing {:.2f} ms a frame, scan-out {:.2f} ms "
       "(virtual time)\n",

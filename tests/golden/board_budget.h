@@ -17,7 +17,7 @@ inline constexpr BoardBudget kBoardBudgets[] = {
     {"host", 16 * kMiB, 64 * kMiB, 8 * kMiB},
     {"cortex-m7", 320 * kKiB, 4 * kMiB, 208 * kKiB},
     {"cortex-a9", 8 * kMiB, 8 * kMiB, 1 * kMiB},
-    {"linux-arm64", 32 * kMiB, 32 * kMiB, 8 * kMiB},
+    {"linux-arm64", 32 * kMiB, 32 * kMiB, 16 * kMiB},
 };
 
 }  // namespace usuzumi::golden

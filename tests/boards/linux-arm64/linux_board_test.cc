@@ -168,24 +168,34 @@ TEST_F(LinuxBoardTest, AStopEndsAfterTheStepAndLeavesTheConsoleDarkOfUs) {
   EXPECT_EQ(chip_.requested_lines() + fake_chips().open_chips + fake_chips().objects, 0);
 }
 
-TEST_F(LinuxBoardTest, BadDrawingDataShowTheSafePictureUntilTheStop) {
-  rom_[24] ^= 1;  // behind the header: the CRC is wrong now
-  ASSERT_TRUE(open().ok());
-  EXPECT_EQ(run(0), 3);
-  ASSERT_EQ(lines_.size(), 1u);
-  EXPECT_THAT(lines_[0], StartsWith("error: "));
-  EXPECT_TRUE(light());
-  const std::string safe = panel_crc();
-  EXPECT_THAT(kernel_.panel(4), Not(Each(0)));
-  int waits = 0;
-  fake_chips().on_wait = [&] {
-    EXPECT_EQ(light(), waits != 1) << "it follows the ignition";
-    chip_.drive(kIgnition, waits != 0);
-    if (++waits == 3) stop = 1;
-  };
-  board_.stand_by();
-  EXPECT_EQ(waits, 3);
-  EXPECT_EQ(panel_crc(), safe);
+TEST_F(LinuxBoardTest, BadDrawingDataShowTheSafePictureWhileTheIgnitionIsOnUntilTheStop) {
+  for (const bool on_at_first : {true, false}) {
+    stop = 0;
+    lines_.clear();
+    rom_[24] ^= on_at_first ? 1 : 0;  // behind the header: the CRC is wrong now
+    ASSERT_TRUE(open().ok());
+    chip_.drive(kIgnition, on_at_first);
+    std::uint32_t lit_flips = 0;
+    int waits = 0;
+    kernel_.card.on_flip = [&](std::uint32_t) {
+      if (!light()) return;
+      if (++lit_flips == 4) chip_.drive(kIgnition, false);
+      if (lit_flips == 9) stop = 1;
+    };
+    fake_chips().on_wait = [&] {
+      EXPECT_FALSE(light());
+      EXPECT_TRUE(lit_flips == 0 || kernel_.panel(4) == std::vector<std::uint8_t>(std::size_t{64} * 48 * 4));
+      if (++waits % 3 == 0) chip_.drive(kIgnition, true);
+    };
+    EXPECT_EQ(run(0), 3);
+    ASSERT_EQ(lines_.size(), 1u);
+    EXPECT_THAT(lines_[0], StartsWith("error: "));
+    EXPECT_TRUE(light());
+    EXPECT_EQ(lit_flips, 9u);
+    EXPECT_GE(waits, 3) << "it followed the ignition into the dark";
+    EXPECT_THAT(kernel_.panel(4), Not(Each(0)));
+    board_.close();
+  }
 }
 
 TEST_F(LinuxBoardTest, WithoutADisplayTheLightIsOffAndThePinsAreGivenBack) {

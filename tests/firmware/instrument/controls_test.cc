@@ -30,6 +30,17 @@ TEST(Controls, ABouncingContactIsOnePress) {
   EXPECT_EQ(controls.presses(), 1u);
 }
 
+TEST(Controls, AContactThatBouncesAsItOpensIsNoNewPress) {
+  Controls controls;
+  controls.update(kOn, 0);
+  std::uint64_t t = 100 * kMs;
+  for (int frame = 0; frame < 8; ++frame) controls.update(kOnPressed, t += 17 * kMs);  // held for 136 ms
+  for (const PinInputs& pins : {kOn, kOnPressed, kOn, kOn, kOn, kOn}) controls.update(pins, t += 17 * kMs);
+  EXPECT_EQ(controls.presses(), 1u);
+  controls.update(kOnPressed, t + 17 * kMs);
+  EXPECT_EQ(controls.presses(), 2u);
+}
+
 TEST(Controls, APressAtTheEndOfTheDebounceTimeCounts) {
   for (const bool late : {false, true}) {
     Controls controls;

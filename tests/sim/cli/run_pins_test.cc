@@ -81,7 +81,7 @@ TEST_F(RunPins, SaysWhatNoFrameWillSee) {
 TEST_F(RunPins, DrawingDataForOneBoardAreRefusedByAnother) {
   ASSERT_EQ(usuzumi("pack hills.obj -o m7.rom --board cortex-m7").exit_code, 0);
   EXPECT_EQ(usuzumi("run m7.rom --board cortex-m7 --size 160x96").exit_code, 0);
-  expect_one_line_error(usuzumi("run m7.rom --size 160x96"), 3, "for another board");
+  expect_one_line_error(usuzumi("run m7.rom --size 160x96"), 3, "for board cortex-m7 alone");
   EXPECT_NE(usuzumi("inspect m7.rom").out.find("for board cortex-m7 alone"), std::string::npos);
   EXPECT_EQ(usuzumi("inspect m7.rom --json").json()["board"], "cortex-m7");
   EXPECT_EQ(usuzumi("inspect hills.rom --json").json()["board"], nullptr);

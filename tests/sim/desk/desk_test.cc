@@ -110,12 +110,18 @@ TEST(DeskTest, AHungEngineEndsInASentenceNotInAHang) {
 TEST(DeskTest, ABusTooSlowForTheDisplayIsSeenInThePictureAndInTheStatus) {
   const RomImage rom = scene_rom();
   DeskConfig slow = config(800, 480);
-  slow.faults.bus_slowdown = 100;  // 32 MB a second for a picture that takes 92
+  slow.faults.bus_slowdown = 50;  // 64 MB a second for a picture that takes 92
+  slow.pins = {{0, "ignition", true}};
   Desk starved(slow, rom.bytes(), "scene"), sound(config(800, 480), rom.bytes(), "scene");
   const auto bad = starved.draw(request_for(starved)), good = sound.draw(request_for(sound));
+  EXPECT_EQ(bad.record.shown, firmware::Shown::kSafePicture);
+  EXPECT_NE(bad.record.fault.find("FIFO"), std::string::npos) << bad.record.fault;
   EXPECT_NE(bad.record.crc32, good.record.crc32);
   EXPECT_EQ(bad.record.crc32, bad.record.panel_crc32);
   EXPECT_GT(starved.machine().display().starved_lines(), 0u);
+  slow.pins.reset();
+  Desk unwatched(slow, rom.bytes(), "scene");
+  EXPECT_THROW(unwatched.draw(request_for(unwatched)), Error) << "nobody asked for a fault";
   EXPECT_EQ(sound.machine().display().starved_lines(), 0u);
 }
 

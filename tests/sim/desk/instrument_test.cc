@@ -76,6 +76,27 @@ class InstrumentOnMachine : public ::testing::Test {
   }
   StepReport step(std::uint32_t frame = 0) { return instrument.step(request(frame)); }
   std::uint64_t frame_ticks() const { return make_display_mode(kWidth, kHeight)->frame_ticks(); }
+  /// Of the display's bus, to half of what the lines of the picture take while they are sent.
+  static double starving_slowdown() {
+    const auto mode = *make_display_mode(kWidth, kHeight);
+    const double line_bytes_per_second = 4.0 * kWidth * mode.pixel_clock_hz() / mode.line_pixels();
+    return 3.2e9 / (line_bytes_per_second / 2);
+  }
+  /// The same instrument with other drawing data.
+  Instrument instrument_with(std::span<const std::byte> rom_bytes) {
+    return Instrument({.registers = machine,
+                       .engine_base = sim::kEngineBase,
+                       .interrupts = machine,
+                       .display = display,
+                       .clock = machine,
+                       .memory = machine,
+                       .bus = machine,
+                       .rom = rom_bytes,
+                       .ram = machine.ram(),
+                       .vram_base = sim::kVramBase,
+                       .vram_bytes = static_cast<std::uint32_t>(machine.vram().size())},
+                      pins);
+  }
   /// What the panel shows once everything sent so far has arrived.
   std::uint32_t settled_crc() {
     machine.idle(2 * frame_ticks());
@@ -90,18 +111,7 @@ class InstrumentOnMachine : public ::testing::Test {
   sim::Machine machine{sim::host_sim(), rom.bytes(), engine, panel};
   ControllerDisplay display{machine, sim::kDisplayBase, machine};
   TestPins pins{machine};
-  Instrument instrument{{.registers = machine,
-                         .engine_base = sim::kEngineBase,
-                         .interrupts = machine,
-                         .display = display,
-                         .clock = machine,
-                         .memory = machine,
-                         .bus = machine,
-                         .rom = machine.rom(),
-                         .ram = machine.ram(),
-                         .vram_base = sim::kVramBase,
-                         .vram_bytes = static_cast<std::uint32_t>(machine.vram().size())},
-                        pins};
+  Instrument instrument = instrument_with(machine.rom());
   firmware::InstrumentConfig config;
   std::vector<SeenFrame> seen;
 };
@@ -224,10 +234,7 @@ TEST_F(InstrumentOnMachine, ABusTooSlowForThePictureIsFastEnoughForTheSafeOne) {
   boot();
   step();
   const std::uint32_t picture = settled_crc();
-  // Half of what the lines of the picture take while they are sent.
-  const auto mode = *make_display_mode(kWidth, kHeight);
-  const double line_bytes_per_second = 4.0 * kWidth * mode.pixel_clock_hz() / mode.line_pixels();
-  machine.inject({.bus_slowdown = 3.2e9 / (line_bytes_per_second / 2)});
+  machine.inject({.bus_slowdown = starving_slowdown()});
   step(1);
   machine.idle(2 * frame_ticks());
   const StepReport report = step(2);
@@ -260,18 +267,7 @@ TEST_F(InstrumentOnMachine, IgnitionOffAndOnEndsTheSafePictureAtOnce) {
 
 TEST_F(InstrumentOnMachine, ABootWithoutGoodDrawingDataShowsTheSafePicture) {
   std::vector<std::byte> nothing(64);
-  Instrument broken{{.registers = machine,
-                     .engine_base = sim::kEngineBase,
-                     .interrupts = machine,
-                     .display = display,
-                     .clock = machine,
-                     .memory = machine,
-                     .bus = machine,
-                     .rom = nothing,
-                     .ram = machine.ram(),
-                     .vram_base = sim::kVramBase,
-                     .vram_bytes = static_cast<std::uint32_t>(machine.vram().size())},
-                    pins};
+  Instrument broken = instrument_with(nothing);
   EXPECT_EQ(broken.boot(config).code, StatusCode::kDataLoss);
   EXPECT_TRUE(pins.light);
   const std::uint32_t shown = settled_crc();
@@ -281,6 +277,43 @@ TEST_F(InstrumentOnMachine, ABootWithoutGoodDrawingDataShowsTheSafePicture) {
   pins.inputs.ignition = true;
   EXPECT_EQ(broken.step({}).shown, Shown::kSafePicture) << "there is still nothing to draw";
   EXPECT_EQ(settled_crc(), shown);
+}
+
+TEST_F(InstrumentOnMachine, ABootWithoutGoodDrawingDataShowsTheSafePictureToALaterIgnitionToo) {
+  std::vector<std::byte> nothing(64);
+  Instrument broken = instrument_with(nothing);
+  pins.inputs.ignition = false;
+  EXPECT_EQ(broken.boot(config).code, StatusCode::kDataLoss);
+  EXPECT_EQ(broken.step({}).shown, Shown::kDark);
+  EXPECT_FALSE(pins.light);
+  pins.inputs.ignition = true;
+  const StepReport report = broken.step({});
+  EXPECT_EQ(report.shown, Shown::kSafePicture);
+  EXPECT_EQ(report.fault.code, StatusCode::kDataLoss) << "what the boot came to: " << report.fault.message;
+  EXPECT_TRUE(pins.light);
+  EXPECT_NE(settled_crc(), black_crc());
+}
+
+TEST_F(InstrumentOnMachine, APictureThatTheBusIsTooSlowForIsNeverLit) {
+  const double slowdown = starving_slowdown();
+  machine.inject({.bus_slowdown = slowdown});
+  boot();
+  const StepReport report = step();
+  EXPECT_EQ(report.shown, Shown::kSafePicture);
+  EXPECT_EQ(report.fault.code, StatusCode::kUnavailable) << report.fault.message;
+  EXPECT_TRUE(report.backlight);
+  const std::uint32_t safe = settled_crc();
+  for (const SeenFrame& f : seen) EXPECT_TRUE(!f.light || f.crc == safe) << f.complete;
+}
+
+TEST_F(InstrumentOnMachine, WhereEvenTheSafePictureBreaksThePanelIsDark) {
+  machine.inject({.bus_slowdown = 100 * starving_slowdown()});
+  boot();
+  const StepReport report = step();
+  EXPECT_EQ(report.shown, Shown::kDark);
+  EXPECT_FALSE(pins.light);
+  EXPECT_EQ(report.fault.code, StatusCode::kUnavailable);
+  for (const SeenFrame& f : seen) EXPECT_FALSE(f.light);
 }
 
 TEST_F(InstrumentOnMachine, WithTheIgnitionOffABootStaysDark) {
