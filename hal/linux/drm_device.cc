@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 
 #include "hal/linux/monotonic_clock.h"
 
@@ -11,6 +12,22 @@ namespace {
 
 /// The kernel's structures carry user pointers in 64 bits.
 std::uint64_t address_of(const void* p) { return reinterpret_cast<std::uintptr_t>(p); }
+
+/// Whether flip `number` is among events that come whole, one after the other, each with its length.
+bool tells_flip(std::span<const std::byte> events, std::uint64_t number) {
+  while (events.size() >= sizeof(drm_event)) {
+    drm_event event;
+    std::memcpy(&event, events.data(), sizeof event);
+    if (event.length < sizeof event || event.length > events.size()) return false;
+    if (event.type == DRM_EVENT_FLIP_COMPLETE && event.length >= sizeof(drm_event_vblank)) {
+      drm_event_vblank flip;
+      std::memcpy(&flip, events.data(), sizeof flip);
+      if (flip.user_data == number) return true;
+    }
+    events = events.subspan(event.length);
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -140,7 +157,10 @@ int DrmDevice::flip(std::uint32_t crtc, std::uint32_t frame_buffer) {
   request.crtc_id = crtc;
   request.fb_id = frame_buffer;
   request.flags = DRM_MODE_PAGE_FLIP_EVENT;
-  return control(DRM_IOCTL_MODE_PAGE_FLIP, request);
+  request.user_data = last_flip_ + 1;
+  const int result = control(DRM_IOCTL_MODE_PAGE_FLIP, request);
+  if (result == 0) ++last_flip_;
+  return result;
 }
 
 int DrmDevice::wait_for_flip(int timeout_ms) {
@@ -152,21 +172,11 @@ int DrmDevice::wait_for_flip(int timeout_ms) {
     if (ready == -EINTR && left_ms > 0) continue;
     if (ready < 0) return ready;
     if (ready == 0) return -ETIMEDOUT;
-    // Events come whole, one after the other, each with its length.
     alignas(8) std::array<std::byte, 1024> events;
     const std::ptrdiff_t read = kernel_.read(file_, events.data(), events.size());
     if (read == -EINTR || read == -EAGAIN) continue;
     if (read < 0) return static_cast<int>(read);
-    const auto size = static_cast<std::size_t>(read);
-    bool flipped = false;
-    for (std::size_t at = 0; at + sizeof(drm_event) <= size;) {
-      drm_event event;
-      std::memcpy(&event, events.data() + at, sizeof event);
-      flipped |= event.type == DRM_EVENT_FLIP_COMPLETE;
-      if (event.length < sizeof event) break;
-      at += event.length;
-    }
-    if (flipped) return 0;
+    if (tells_flip(std::span(events).first(static_cast<std::size_t>(read)), last_flip_)) return 0;
     if (left_ms == 0) return -ETIMEDOUT;
   }
 }

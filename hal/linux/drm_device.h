@@ -66,9 +66,11 @@ class DrmDevice {
   int map_buffer(const DumbBuffer& buffer, void* address, std::size_t bytes);
   void destroy_buffer(DumbBuffer& buffer);
 
-  /// From the next vertical blank on; wait_for_flip() tells when it has come to pass.
+  /// From the next vertical blank on; wait_for_flip() tells when it has come to pass. -EBUSY while the one before it
+  /// is pending.
   int flip(std::uint32_t crtc, std::uint32_t frame_buffer);
-  /// -ETIMEDOUT when no flip was completed within `timeout_ms`.
+  /// Until the last flip() that was taken is completed: events of earlier ones, given up and late, are passed over.
+  /// -ETIMEDOUT when it was not completed within `timeout_ms`.
   int wait_for_flip(int timeout_ms);
   /// For displays that are sent what has changed, where no flip does it. ok where the card knows nothing of that.
   int flush(std::uint32_t frame_buffer, std::uint32_t width, std::uint32_t height);
@@ -81,6 +83,7 @@ class DrmDevice {
 
   Kernel& kernel_;
   int file_ = -1;
+  std::uint64_t last_flip_ = 0;  // the number that the kernel gives back with the flip's event
 };
 
 }  // namespace usuzumi::linux_hal

@@ -1,5 +1,6 @@
 #include "hal/linux/drm_display.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -18,6 +19,30 @@ DrmFormat drm_format(command::PixelFormat format) {
   if (format == command::PixelFormat::kRgb565) return {DRM_FORMAT_RGB565, 16};
   return {DRM_FORMAT_XRGB8888, 32};
 }
+
+bool progressive(const drm_mode_modeinfo& mode) {
+  return (mode.flags & (DRM_MODE_FLAG_INTERLACE | DRM_MODE_FLAG_DBLSCAN)) == 0;
+}
+
+/// Sizes of pictures, each once.
+struct SizeList {
+  static constexpr std::size_t kMost = 256;
+  struct Size {
+    std::uint16_t width, height;
+    bool operator==(const Size&) const = default;
+  };
+  std::array<Size, kMost> sizes{};
+  std::size_t count = 0;
+
+  /// Whether it is a new one.
+  bool add(Size size) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (sizes[i] == size) return false;
+    if (count == kMost) return false;
+    sizes[count++] = size;
+    return true;
+  }
+};
 
 std::size_t whole_pages(std::size_t bytes) {
   return (bytes + Display::kPictureAlignment - 1) / Display::kPictureAlignment * Display::kPictureAlignment;
@@ -39,6 +64,7 @@ const char* advice(int result) {
                         "--size";
     case ENOTTY:
     case EOPNOTSUPP: return ": no card that sets modes; name another by --card";
+    case ENOSYS: return ": the driver has no plain buffers; name another card by --card";
     default: return ": failed; look for the driver's words in dmesg";
   }
 }
@@ -62,7 +88,7 @@ Status DrmDisplay::open(const DrmConfig& config) {
     path.text("/dev/dri/card").number(n);
     const Status status = open_card(path.c_str());
     if (status.ok() || status.code == StatusCode::kInvalidArgument) return status;
-    if (status.where != ENOENT && first_failed.empty()) first_failed = path;
+    if (card_exists_ && first_failed.empty()) first_failed = path;
   }
   if (!first_failed.empty()) return open_card(first_failed.c_str());
   text_.clear();
@@ -79,6 +105,7 @@ Status DrmDisplay::open_card(const char* path) {
   }
   std::memcpy(path_, path, length + 1);
   int result = device_.open(path_);
+  card_exists_ = result != -ENOENT;
   if (result < 0) return failed("", result);
   // Whoever opens a card first is its master. Old kernels let only root ask; then setting the mode finds it out.
   result = device_.set_master();
@@ -92,49 +119,55 @@ Status DrmDisplay::open_card(const char* path) {
 
 Status DrmDisplay::pick_mode() {
   DrmResources resources;
-  int result = device_.read_resources(resources);
+  const int result = device_.read_resources(resources);
   if (result < 0) return failed("", result);
   bool connected = false;
-  for (std::size_t i = 0; i < resources.connector_count && !connected; ++i) {
-    result = device_.read_connector(resources.connectors[i], connector_);
-    if (result < 0) return failed(": a connector", result);
-    connected = connector_.connected && connector_.mode_count > 0;
+  int unread = 0;              // errno of the first connector that cannot be read
+  std::uint32_t unserved = 0;  // a connector that has the size, and no CRTC
+  for (std::size_t i = 0; i < resources.connector_count; ++i) {
+    const int read = device_.read_connector(resources.connectors[i], connector_);
+    if (read < 0 && unread == 0) unread = read;
+    if (read < 0 || !connector_.connected || connector_.mode_count == 0) continue;
+    connected = true;
+    const drm_mode_modeinfo* const mode = mode_of_size();
+    if (mode == nullptr) continue;
+    mode_ = *mode;
+    if (pick_crtc(resources)) return ok_status();
+    unserved = connector_.id;
   }
-  if (!connected) {
-    text_.clear();
-    text_.text("display ").text(path_);
-    return text_.text(": nothing is connected; check the panel's cable and its node in the device tree; connectors")
-        .status(StatusCode::kUnavailable, static_cast<std::uint32_t>(resources.connector_count));
-  }
-  const drm_mode_modeinfo* picked = nullptr;
-  for (std::size_t i = 0; i < connector_.mode_count && picked == nullptr; ++i) {
-    const drm_mode_modeinfo& mode = connector_.modes[i];
-    const bool progressive = (mode.flags & (DRM_MODE_FLAG_INTERLACE | DRM_MODE_FLAG_DBLSCAN)) == 0;
-    if (mode.hdisplay == config_.width && mode.vdisplay == config_.height && progressive) picked = &mode;
-  }
-  if (picked == nullptr) return refuse_size();
-  mode_ = *picked;
-  if (pick_crtc(resources)) return ok_status();
+  if (unserved == 0 && connected) return refuse_size(resources);
+  if (unserved == 0 && unread != 0) return failed(": a connector", unread);
   text_.clear();
-  return text_.text("display ").text(path_).text(": no CRTC serves the connector; connector")
-      .status(StatusCode::kUnavailable, connector_.id);
+  text_.text("display ").text(path_);
+  if (unserved != 0)
+    return text_.text(": no CRTC serves the connector; connector").status(StatusCode::kUnavailable, unserved);
+  return text_.text(": nothing is connected; check the panel's cable and its node in the device tree; connectors")
+      .status(StatusCode::kUnavailable, static_cast<std::uint32_t>(resources.connector_count));
 }
 
-Status DrmDisplay::refuse_size() {
+const drm_mode_modeinfo* DrmDisplay::mode_of_size() const {
+  for (std::size_t i = 0; i < connector_.mode_count; ++i) {
+    const drm_mode_modeinfo& mode = connector_.modes[i];
+    if (mode.hdisplay == config_.width && mode.vdisplay == config_.height && progressive(mode)) return &mode;
+  }
+  return nullptr;
+}
+
+Status DrmDisplay::refuse_size(const DrmResources& resources) {
   text_.clear();
   text_.text("display ").text(path_).text(" has no ").size(config_.width, config_.height).text("; it has");
   constexpr std::size_t kRoomOfOne = 32;
-  std::uint32_t sizes = 0;
-  for (std::size_t i = 0; i < connector_.mode_count; ++i) {
-    const drm_mode_modeinfo& mode = connector_.modes[i];
-    bool told = false;
-    for (std::size_t k = 0; k < i; ++k)
-      told |= connector_.modes[k].hdisplay == mode.hdisplay && connector_.modes[k].vdisplay == mode.vdisplay;
-    if (told) continue;
-    ++sizes;
-    if (text_.room() > 2 * kRoomOfOne) text_.text(" ").size(mode.hdisplay, mode.vdisplay);
+  SizeList told;
+  for (std::size_t c = 0; c < resources.connector_count; ++c) {
+    if (device_.read_connector(resources.connectors[c], connector_) < 0 || !connector_.connected) continue;
+    for (std::size_t i = 0; i < connector_.mode_count; ++i) {
+      const drm_mode_modeinfo& mode = connector_.modes[i];
+      if (!progressive(mode) || !told.add({mode.hdisplay, mode.vdisplay})) continue;
+      if (text_.room() > 2 * kRoomOfOne) text_.text(" ").size(mode.hdisplay, mode.vdisplay);
+    }
   }
-  return text_.text("; sizes in all").status(StatusCode::kInvalidArgument, sizes);
+  if (told.count == 0) text_.text(" interlaced ones alone");
+  return text_.text("; sizes in all").status(StatusCode::kInvalidArgument, static_cast<std::uint32_t>(told.count));
 }
 
 bool DrmDisplay::pick_crtc(const DrmResources& resources) {
@@ -166,6 +199,25 @@ std::uint32_t DrmDisplay::do_stride_bytes(std::uint32_t width, std::uint32_t hei
   return stride_bytes;
 }
 
+Status DrmDisplay::refuse_pictures(const Scanout& scanout) {
+  const bool rgb565 = scanout.format == command::PixelFormat::kRgb565;
+  const DrmFormat drm = drm_format(scanout.format);
+  DumbBuffer trial;
+  const int result = device_.create_buffer(scanout.width, scanout.height, drm.bits, drm.fourcc, trial);
+  device_.destroy_buffer(trial);
+  const bool not_taken = result == -EINVAL || result == -ENOENT;  // ENOENT is virtio-gpu's word for a format
+  const char* const format = rgb565 ? "RGB565" : "XRGB8888";
+  text_.clear();
+  text_.text("display ").text(path_).text(not_taken ? " takes no " : ": ").text(format).text(" pictures of ");
+  text_.size(scanout.width, scanout.height);
+  if (not_taken)
+    return text_.text(rgb565 ? "; leave out --rgb565" : "; try --rgb565").text("; errno")
+        .status(StatusCode::kInvalidArgument, static_cast<std::uint32_t>(-result));
+  if (result < 0) return text_.text(advice(result)).errno_status(result);
+  return text_.text(" were refused a moment ago; start the program anew; width")
+      .status(StatusCode::kUnavailable, scanout.width);
+}
+
 int DrmDisplay::make_pictures(const Scanout& scanout) {
   const DrmFormat drm = drm_format(scanout.format);
   int result = device_.create_buffer(scanout.width, scanout.height, drm.bits, drm.fourcc, black_);
@@ -186,10 +238,12 @@ int DrmDisplay::make_pictures(const Scanout& scanout) {
 Status DrmDisplay::do_start(const Scanout& scanout) {
   if (!device_.is_open()) return {StatusCode::kFailedPrecondition, "display started before open()", 0};
   if (scanout.width != mode_.hdisplay || scanout.height != mode_.vdisplay) {
-    config_.width = scanout.width;
-    config_.height = scanout.height;
-    return refuse_size();
+    text_.clear();
+    text_.text("display ").text(path_).text(" was opened for ").size(mode_.hdisplay, mode_.vdisplay);
+    return text_.text(", not for ").size(scanout.width, scanout.height).text("; width")
+        .status(StatusCode::kInvalidArgument, scanout.width);
   }
+  if (scanout.stride_bytes == 0) return refuse_pictures(scanout);
   const std::size_t bytes = whole_pages(std::size_t{scanout.stride_bytes} * scanout.height);
   for (const BusAddress picture : scanout.picture)
     if (picture % kPictureAlignment != 0 || picture < config_.vram.base ||

@@ -18,7 +18,7 @@ namespace usuzumi::linux_hal {
 
 struct DrmConfig {
   const char* card = nullptr;  // null: the first of /dev/dri/card0 to card15 that has a connected display
-  std::uint32_t width = 0, height = 0;  // pixels
+  std::uint32_t width = 0, height = 0;  // pixels; the first connected display of the card that has them is taken
   /// Where the scanout's pictures lie. Whole pages, and fresh private memory: pieces of it are replaced and given back.
   MemoryRegion vram;
   int flip_timeout_ms = 1000;
@@ -48,8 +48,12 @@ class DrmDisplay final : public Display {
 
   Status open_card(const char* path);
   Status pick_mode();
-  Status refuse_size();
+  /// Null where connector_ has no such size.
+  const drm_mode_modeinfo* mode_of_size() const;
+  Status refuse_size(const DrmResources& resources);
   bool pick_crtc(const DrmResources& resources);
+  /// Why do_stride_bytes() knew of no such picture.
+  Status refuse_pictures(const Scanout& scanout);
   int make_pictures(const Scanout& scanout);
   void release_crtc();
   void destroy_pictures();
@@ -59,6 +63,7 @@ class DrmDisplay final : public Display {
   DrmDevice device_;
   DrmConfig config_;
   char path_[64] = "";
+  bool card_exists_ = false;  // whether there is a file at path_
   DrmConnector connector_;
   std::uint32_t crtc_ = 0;
   drm_mode_modeinfo mode_{};

@@ -146,14 +146,17 @@ TEST_F(DrmDisplayTest, ASizeThatTheDisplayHasNotIsRefusedWithTheSizesItHas) {
 }
 
 TEST_F(DrmDisplayTest, AnInterlacedModeIsNotTakenForThePicture) {
-  for (drm_mode_modeinfo& mode : kernel_.card.modes) mode.flags = DRM_MODE_FLAG_INTERLACE;
-  EXPECT_EQ(display_->open(config()).code, StatusCode::kInvalidArgument);
+  for (drm_mode_modeinfo& mode : kernel_.card.connectors[0].modes) mode.flags = DRM_MODE_FLAG_INTERLACE;
+  const Status status = display_->open(config());
+  EXPECT_EQ(status.code, StatusCode::kInvalidArgument);
+  EXPECT_STREQ(status.message, "display /dev/dri/card0 has no 64x48; it has interlaced ones alone; sizes in all");
+  EXPECT_EQ(status.where, 0u);
 }
 
 TEST_F(DrmDisplayTest, AListOfManySizesStaysOneShortLine) {
-  kernel_.card.modes.clear();
+  kernel_.card.connectors[0].modes.clear();
   for (std::uint16_t i = 0; i < 120; ++i)
-    kernel_.card.modes.push_back(mode_of(static_cast<std::uint16_t>(1000 + i), 1000));
+    kernel_.card.connectors[0].modes.push_back(mode_of(static_cast<std::uint16_t>(1000 + i), 1000));
   const Status status = display_->open(config());
   EXPECT_EQ(status.where, 120u);
   EXPECT_LE(std::strlen(status.message), StatusText::kCapacity);
@@ -180,11 +183,32 @@ TEST_F(DrmDisplayTest, FindsACardOfAnyNumberAndTakesTheOneItIsTold) {
   EXPECT_TRUE(kernel_.as_before());
 }
 
-TEST_F(DrmDisplayTest, WithNothingConnectedSaysSo) {
-  kernel_.card.connected = false;
+TEST_F(DrmDisplayTest, WithNothingConnectedSaysSoWhateverTheNumberOfConnectors) {
+  for (std::uint32_t connectors = 0; connectors <= 3; ++connectors) {
+    kernel_.card.connectors.assign(connectors, {false, {}});
+    const Status status = display_->open(config());
+    EXPECT_EQ(status.code, StatusCode::kUnavailable);
+    EXPECT_THAT(status.message, HasSubstr("display /dev/dri/card0: nothing is connected"));
+    EXPECT_EQ(status.where, connectors);
+    EXPECT_TRUE(kernel_.as_before());
+  }
+}
+
+TEST_F(DrmDisplayTest, TheFirstConnectedConnectorOfTheSizeIsTaken) {
+  const FakeConnector has_size = kernel_.card.connectors[0];
+  kernel_.card.connectors = {{false, {}}, {true, {mode_of(1920, 1080)}}, has_size, has_size};
+  ASSERT_TRUE(open_and_start().ok());
+  EXPECT_EQ(kernel_.card.driven_connector, FakeCard::kFirstConnector + 2);
+  ASSERT_TRUE(display_->show(0).ok());
+}
+
+TEST_F(DrmDisplayTest, ASizeThatNoConnectorHasIsRefusedWithTheSizesOfAll) {
+  kernel_.card.connectors = {{true, {mode_of(1920, 1080), mode_of(800, 600)}}, {false, {mode_of(64, 48)}},
+                             {true, {mode_of(800, 600), mode_of(480, 272)}}};
   const Status status = display_->open(config());
-  EXPECT_EQ(status.code, StatusCode::kUnavailable);
-  EXPECT_THAT(status.message, HasSubstr("nothing is connected"));
+  EXPECT_EQ(status.code, StatusCode::kInvalidArgument);
+  EXPECT_STREQ(status.message, "display /dev/dri/card0 has no 64x48; it has 1920x1080 800x600 480x272; sizes in all");
+  EXPECT_EQ(status.where, 3u);
   EXPECT_TRUE(kernel_.as_before());
 }
 
@@ -250,6 +274,29 @@ TEST_F(DrmDisplayTest, AVerticalBlankThatDoesNotComeEndsTheWait) {
   EXPECT_THAT(kernel_.panel(4), Each(0x55));
 }
 
+TEST_F(DrmDisplayTest, AfterABlankThatCameLateEachShowReturnsWithItsOwnPicture) {
+  ASSERT_TRUE(open_and_start().ok());
+  const Scanout s = scanout();
+  kernel_.card.flips_arrive = false;
+  ASSERT_EQ(display_->show(0).code, StatusCode::kDeadlineExceeded);
+  kernel_.vertical_blank();  // late: nobody waits for it any more
+  kernel_.card.flips_arrive = true;
+  for (std::uint32_t i = 1; i <= 6; ++i) {
+    const auto value = static_cast<std::uint8_t>(0x10 + i);
+    fill(s, i % 2, value);
+    ASSERT_TRUE(display_->show(i % 2).ok());
+    EXPECT_EQ(kernel_.panel(4)[0], value) << "show " << i << " returned while the other picture was being sent";
+  }
+}
+
+TEST_F(DrmDisplayTest, ALateBlankAloneDoesNotEndTheWaitForTheNext) {
+  ASSERT_TRUE(open_and_start().ok());
+  kernel_.card.flips_arrive = false;
+  ASSERT_EQ(display_->show(0).code, StatusCode::kDeadlineExceeded);
+  kernel_.vertical_blank();
+  EXPECT_EQ(display_->show(1).code, StatusCode::kDeadlineExceeded);
+}
+
 TEST_F(DrmDisplayTest, ACardWithoutPageFlipsIsSetAndFlushed) {
   ASSERT_TRUE(open_and_start().ok());
   kernel_.card.refusals[DRM_IOCTL_MODE_PAGE_FLIP] = ENOSYS;
@@ -267,6 +314,74 @@ TEST_F(DrmDisplayTest, ADisplayPulledOutIsUnavailable) {
   const Status status = display_->show(0);
   EXPECT_EQ(status.code, StatusCode::kUnavailable);
   EXPECT_THAT(status.message, HasSubstr("page flip: the device is gone"));
+}
+
+struct NoPictures {
+  const char* name;
+  unsigned long request;  // that is refused
+  int error;
+  command::PixelFormat format;
+  StatusCode code;
+  const char* message;
+};
+
+class DrmNoPicturesTest : public DrmDisplayTest, public ::testing::WithParamInterface<NoPictures> {};
+
+TEST_P(DrmNoPicturesTest, StartSaysWhyAndNothingIsLeftBehind) {
+  const NoPictures& p = GetParam();
+  ASSERT_TRUE(display_->open(config()).ok());
+  kernel_.card.refusals[p.request] = p.error;
+  const Scanout s = scanout(p.format);
+  ASSERT_EQ(s.stride_bytes, 0u);
+  const Status status = display_->start(s);
+  EXPECT_EQ(status.code, p.code);
+  EXPECT_STREQ(status.message, p.message);
+  EXPECT_EQ(status.where, static_cast<std::uint32_t>(p.error));
+  EXPECT_EQ(kernel_.buffers() + kernel_.frame_buffers() + kernel_.mappings(), 0u);
+  EXPECT_EQ(kernel_.card.crtc_settings, 0u) << "the panel was touched";
+  display_->release();
+  EXPECT_TRUE(kernel_.as_before());
+}
+
+constexpr auto kXrgb = command::PixelFormat::kXrgb8888, k565 = command::PixelFormat::kRgb565;
+INSTANTIATE_TEST_SUITE_P(
+    OfEachCause, DrmNoPicturesTest,
+    ::testing::Values(
+        NoPictures{"AFormatNotTaken", DRM_IOCTL_MODE_ADDFB2, EINVAL, k565, StatusCode::kInvalidArgument,
+                   "display /dev/dri/card0 takes no RGB565 pictures of 64x48; leave out --rgb565; errno"},
+        NoPictures{"AFormatNotThere", DRM_IOCTL_MODE_ADDFB2, ENOENT, kXrgb, StatusCode::kInvalidArgument,
+                   "display /dev/dri/card0 takes no XRGB8888 pictures of 64x48; try --rgb565; errno"},
+        NoPictures{"NoMemory", DRM_IOCTL_MODE_CREATE_DUMB, ENOMEM, kXrgb, StatusCode::kUnavailable,
+                   "display /dev/dri/card0: XRGB8888 pictures of 64x48: no memory for pictures of this size; give the "
+                   "driver more (cma=), or ask for a smaller --size; errno"},
+        NoPictures{"NoRights", DRM_IOCTL_MODE_CREATE_DUMB, EACCES, kXrgb, StatusCode::kUnavailable,
+                   "display /dev/dri/card0: XRGB8888 pictures of 64x48: no permission; run as a member of its group "
+                   "(video), and see that no other program shows pictures on this card; errno"},
+        NoPictures{"ADriverWithoutBuffers", DRM_IOCTL_MODE_CREATE_DUMB, ENOSYS, k565, StatusCode::kUnavailable,
+                   "display /dev/dri/card0: RGB565 pictures of 64x48: the driver has no plain buffers; name another "
+                   "card by --card; errno"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST_F(DrmDisplayTest, PicturesRefusedOnlyAMomentAgoAreATryAnew) {
+  ASSERT_TRUE(display_->open(config()).ok());
+  kernel_.card.refusals[DRM_IOCTL_MODE_CREATE_DUMB] = ENOMEM;
+  const Scanout s = scanout();
+  kernel_.card.refusals.clear();
+  const Status status = display_->start(s);
+  EXPECT_EQ(status.code, StatusCode::kUnavailable);
+  EXPECT_THAT(status.message, HasSubstr("refused a moment ago; start the program anew"));
+  EXPECT_EQ(kernel_.buffers() + kernel_.frame_buffers(), 0u);
+}
+
+TEST_F(DrmDisplayTest, StartWithAnotherSizeThanOpenSaysBoth) {
+  ASSERT_TRUE(display_->open(config()).ok());
+  Scanout s = scanout();
+  s.width = 800;
+  s.height = 600;
+  const Status status = display_->start(s);
+  EXPECT_EQ(status.code, StatusCode::kInvalidArgument);
+  EXPECT_STREQ(status.message, "display /dev/dri/card0 was opened for 64x48, not for 800x600; width");
+  EXPECT_EQ(status.where, 800u);
 }
 
 TEST_F(DrmDisplayTest, APictureOutsideVramIsRefused) {

@@ -33,7 +33,7 @@ drm_mode_modeinfo mode_of(std::uint16_t width, std::uint16_t height) {
 }
 
 FakeKernel::FakeKernel() {
-  card.modes = {mode_of(1024, 768), mode_of(64, 48), mode_of(800, 600), mode_of(800, 600)};
+  card.connectors = {{true, {mode_of(1024, 768), mode_of(64, 48), mode_of(800, 600), mode_of(800, 600)}}};
   card.formats = {DRM_FORMAT_XRGB8888};
 }
 
@@ -64,6 +64,8 @@ int FakeKernel::do_open(const char* path) {
 int FakeKernel::do_close(int file) {
   if (files_.erase(file) == 0) return -EBADF;
   master_ = false;
+  pending_flip_ = 0;
+  events_.clear();
   return 0;
 }
 
@@ -83,7 +85,7 @@ int FakeKernel::do_control(int file, unsigned long request, void* argument) {
     case DRM_IOCTL_MODE_GETCRTC:
       as<drm_mode_crtc>(argument).fb_id = card.shown_frame_buffer;
       as<drm_mode_crtc>(argument).mode_valid = card.shown_frame_buffer != 0;
-      as<drm_mode_crtc>(argument).mode = card.modes.empty() ? drm_mode_modeinfo{} : card.modes[0];
+      as<drm_mode_crtc>(argument).mode = mode_of(1024, 768);
       return 0;
     case DRM_IOCTL_MODE_SETCRTC: return set_crtc(as<drm_mode_crtc>(argument));
     case DRM_IOCTL_MODE_CREATE_DUMB: return create_dumb(as<drm_mode_create_dumb>(argument));
@@ -113,20 +115,25 @@ int FakeKernel::do_control(int file, unsigned long request, void* argument) {
 
 int FakeKernel::get_resources(drm_mode_card_res& request) const {
   if (request.count_crtcs >= 1) *at<std::uint32_t>(request.crtc_id_ptr) = FakeCard::kCrtc;
-  if (request.count_connectors >= 1) *at<std::uint32_t>(request.connector_id_ptr) = FakeCard::kConnector;
-  request.count_crtcs = request.count_connectors = 1;
+  const auto connectors = static_cast<std::uint32_t>(card.connectors.size());
+  for (std::uint32_t i = 0; i < connectors && request.count_connectors >= connectors; ++i)
+    at<std::uint32_t>(request.connector_id_ptr)[i] = FakeCard::kFirstConnector + i;
+  request.count_crtcs = 1;
+  request.count_connectors = connectors;
   return 0;
 }
 
 int FakeKernel::get_connector(drm_mode_get_connector& request) const {
-  if (request.connector_id != FakeCard::kConnector) return -ENOENT;
-  const auto count = static_cast<std::uint32_t>(card.connected ? card.modes.size() : 0);
+  const std::uint32_t index = request.connector_id - FakeCard::kFirstConnector;
+  if (index >= card.connectors.size()) return -ENOENT;
+  const FakeConnector& connector = card.connectors[index];
+  const auto count = static_cast<std::uint32_t>(connector.connected ? connector.modes.size() : 0);
   if (request.count_modes >= count && count > 0)
-    std::memcpy(at<drm_mode_modeinfo>(request.modes_ptr), card.modes.data(), count * sizeof(drm_mode_modeinfo));
+    std::memcpy(at<drm_mode_modeinfo>(request.modes_ptr), connector.modes.data(), count * sizeof(drm_mode_modeinfo));
   if (request.count_encoders >= 1) *at<std::uint32_t>(request.encoders_ptr) = FakeCard::kEncoder;
   request.count_modes = count;
   request.count_encoders = 1;
-  request.connection = card.connected ? 1 : 2;
+  request.connection = connector.connected ? 1 : 2;
   request.encoder_id = 0;
   return 0;
 }
@@ -164,10 +171,12 @@ int FakeKernel::set_crtc(const drm_mode_crtc& request) {
     card.shown_frame_buffer = 0;
     return 0;
   }
-  if (request.count_connectors != 1 || *at<const std::uint32_t>(request.set_connectors_ptr) != FakeCard::kConnector)
-    return -EINVAL;
+  if (request.count_connectors != 1) return -EINVAL;
+  const std::uint32_t connector = *at<const std::uint32_t>(request.set_connectors_ptr);
+  if (connector - FakeCard::kFirstConnector >= card.connectors.size()) return -EINVAL;
   if (request.fb_id != FakeCard::kConsoleBuffer && !frames_.contains(request.fb_id)) return -ENOENT;
   card.shown_frame_buffer = request.fb_id;
+  card.driven_connector = connector;
   return 0;
 }
 
@@ -175,6 +184,7 @@ int FakeKernel::page_flip(const drm_mode_crtc_page_flip& request) {
   if (pending_flip_ != 0) return -EBUSY;
   if (!frames_.contains(request.fb_id) || (request.flags & DRM_MODE_PAGE_FLIP_EVENT) == 0) return -EINVAL;
   pending_flip_ = request.fb_id;
+  pending_number_ = request.user_data;
   ++card.flips;
   if (card.on_flip) card.on_flip(card.flips);
   return 0;
@@ -196,26 +206,34 @@ int FakeKernel::do_map_at(void* address, std::size_t bytes, int file, std::uint6
   return 0;
 }
 
+void FakeKernel::vertical_blank() {
+  if (pending_flip_ == 0) return;
+  card.shown_frame_buffer = pending_flip_;
+  pending_flip_ = 0;
+  // Another program's events come before ours, alone and in one read with it, as the kernel hands them out.
+  drm_event_vblank blank{}, flip{};
+  blank.base = {DRM_EVENT_VBLANK, sizeof blank};
+  blank.user_data = pending_number_;  // numbers are each sender's own
+  flip.base = {DRM_EVENT_FLIP_COMPLETE, sizeof flip};
+  flip.user_data = pending_number_;
+  events_.push_back({blank});
+  events_.push_back({blank, flip});
+}
+
 int FakeKernel::do_wait_readable(int file, int) {
   if (!files_.contains(file)) return -EBADF;
-  return pending_flip_ != 0 && card.flips_arrive ? 1 : 0;
+  if (events_.empty() && card.flips_arrive) vertical_blank();
+  return events_.empty() ? 0 : 1;
 }
 
 std::ptrdiff_t FakeKernel::do_read(int file, void* into, std::size_t bytes) {
-  if (!files_.contains(file) || pending_flip_ == 0 || bytes < 2 * sizeof(drm_event_vblank)) return -EAGAIN;
-  // Another program's events come before ours, alone and in one read with it, as the kernel hands them out.
-  drm_event_vblank events[2]{};
-  events[0].base = {DRM_EVENT_VBLANK, sizeof(drm_event_vblank)};
-  events[1].base = {DRM_EVENT_FLIP_COMPLETE, sizeof(drm_event_vblank)};
-  blank_told_ = !blank_told_;
-  if (blank_told_) {
-    std::memcpy(into, events, sizeof events[0]);
-    return sizeof events[0];
-  }
-  card.shown_frame_buffer = pending_flip_;
-  pending_flip_ = 0;
-  std::memcpy(into, events, sizeof events);
-  return sizeof events;
+  if (!files_.contains(file) || events_.empty()) return -EAGAIN;
+  const std::vector<drm_event_vblank> events = events_.front();
+  const std::size_t size = events.size() * sizeof(drm_event_vblank);
+  if (bytes < size) return -EAGAIN;
+  events_.pop_front();
+  std::memcpy(into, events.data(), size);
+  return static_cast<std::ptrdiff_t>(size);
 }
 
 }  // namespace usuzumi::linux_hal::testing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <set>
@@ -15,19 +16,25 @@
 
 namespace usuzumi::linux_hal::testing {
 
+struct FakeConnector {
+  bool connected = true;
+  std::vector<drm_mode_modeinfo> modes;
+};
+
 struct FakeCard {
-  static constexpr std::uint32_t kCrtc = 11, kEncoder = 21, kConnector = 31, kConsoleBuffer = 5;
+  static constexpr std::uint32_t kCrtc = 11, kEncoder = 21, kConsoleBuffer = 5;
+  static constexpr std::uint32_t kFirstConnector = 31;  // the others' ids follow
 
   std::string path = "/dev/dri/card0";
-  std::vector<drm_mode_modeinfo> modes;
+  std::vector<FakeConnector> connectors;   // one in the beginning
   std::set<std::uint32_t> formats;         // fourcc codes that AddFB2 takes
   std::uint32_t stride_unit_bytes = 256;
-  bool connected = true;
-  bool flips_arrive = true;                // vertical blanks come
+  bool flips_arrive = true;                // vertical blanks come when they are waited for
   std::map<unsigned long, int> refusals;   // by ioctl: the errno; 0 in `path`'s place is open()
   int open_error = 0;                      // errno
 
   std::uint32_t shown_frame_buffer = kConsoleBuffer;  // 0: the CRTC is off
+  std::uint32_t driven_connector = kFirstConnector;
   std::function<void(std::uint32_t)> on_flip;  // called with the number of flips asked for so far
   std::uint32_t flips = 0, crtc_settings = 0, flushes = 0;
 };
@@ -47,6 +54,8 @@ class FakeKernel final : public Kernel {
   std::size_t frame_buffers() const { return frames_.size(); }
   std::size_t mappings() const { return mappings_.size(); }
   bool has_master() const { return master_; }
+  /// The pending flip comes to pass, and its event waits to be read.
+  void vertical_blank();
   /// Everything that was taken has been given back, and the console's picture is shown again.
   bool as_before() const {
     return open_files() + buffers() + frame_buffers() + mappings() == 0 && !master_ &&
@@ -80,7 +89,9 @@ class FakeKernel final : public Kernel {
   std::map<void*, std::uint32_t> mappings_;             // address -> handle
   std::uint32_t next_id_ = 100;
   std::uint32_t pending_flip_ = 0;  // frame buffer
-  bool master_ = false, blank_told_ = false;
+  std::uint64_t pending_number_ = 0;
+  std::deque<std::vector<drm_event_vblank>> events_;  // what each read hands out
+  bool master_ = false;
 };
 
 /// A mode of that size, progressive, 60 Hz.
