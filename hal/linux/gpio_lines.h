@@ -35,6 +35,9 @@ class GpioLines {
  public:
   static constexpr std::size_t kMostLines = 8;  // inputs, and as many outputs
   static constexpr const char* kConsumer = "usuzumi";  // as gpioinfo shows who holds a line
+  /// Reads of a queue after which read_edges() stops: twice what empties the longest (16 edges of each input). On a
+  /// line that chatters there is always one more.
+  static constexpr int kMostReads = 4;
 
   GpioLines() = default;
   ~GpioLines() { close(); }
@@ -54,8 +57,8 @@ class GpioLines {
   Status set(std::size_t output, bool active);
   /// Until an edge waits to be read, or `timeout_us` have passed: whether one does.
   Result<bool> wait_edge(std::uint32_t timeout_us);
-  /// The edges since the last call, oldest first per input, as far as the kernel's queue and `edges` have room; none
-  /// is left behind in the kernel. How many.
+  /// The edges since the last call, oldest first per input, as far as the kernel's queue and `edges` have room; of
+  /// those that had come before the call none is left behind in the kernel. How many.
   Result<std::size_t> read_edges(std::span<GpioEdge> edges);
 
  private:

@@ -80,7 +80,7 @@ Result<std::size_t> GpioLines::read_edges(std::span<GpioEdge> edges) {
   gpiod_line_event events[kAtOnce];
   std::size_t count = 0;
   for (std::size_t i = 0; i < input_count_; ++i) {
-    for (;;) {
+    for (int reads = 0; reads < kMostReads; ++reads) {
       const timespec at_once{};
       const int waiting = gpiod_line_event_wait(input_lines_[i], &at_once);
       if (waiting == 0 || (waiting < 0 && errno == EINTR)) break;

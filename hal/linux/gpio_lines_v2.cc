@@ -116,9 +116,9 @@ Result<bool> GpioLines::wait_edge(std::uint32_t timeout_us) {
 
 Result<std::size_t> GpioLines::read_edges(std::span<GpioEdge> edges) {
   std::size_t count = 0;
-  for (;;) {
+  for (int reads = 0; reads < kMostReads; ++reads) {
     const int waiting = gpiod_line_request_wait_edge_events(input_request_, 0);
-    if (waiting == 0 || (waiting < 0 && errno == EINTR)) return count;
+    if (waiting == 0 || (waiting < 0 && errno == EINTR)) break;
     const int read = waiting < 0 ? waiting : gpiod_line_request_read_edge_events(input_request_, events_, kAtOnce);
     if (read < 0) return access_failed("events cannot be read", inputs_[0].offset, errno);
     for (int e = 0; e < read && count < edges.size(); ++e) {
@@ -130,6 +130,7 @@ Result<std::size_t> GpioLines::read_edges(std::span<GpioEdge> edges) {
                         gpiod_edge_event_get_timestamp_ns(event)};
     }
   }
+  return count;
 }
 
 }  // namespace usuzumi::linux_hal

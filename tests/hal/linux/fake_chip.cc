@@ -26,6 +26,12 @@ void FakeChip::glitch(unsigned offset) {
   for (int i = 0; i < 2; ++i) append(line, {offset, line.active(), now_ns += kLookNs});
 }
 
+bool FakeChip::edges_wait(unsigned offset) {
+  FakeLine& line = lines[offset];
+  for (; line.chatter > 0 && line.queue.empty(); --line.chatter) drive(offset, !line.level);
+  return !line.queue.empty();
+}
+
 int FakeChip::requested_lines() const {
   int count = 0;
   for (const FakeLine& line : lines) count += line.requested ? 1 : 0;

@@ -21,6 +21,7 @@ struct FakeLine {
   bool active_low = false, requested = false, output = false, edges = false;
   bool held_by_another = false, has_interrupt = true, broken = false;
   std::deque<FakeEdge> queue;
+  unsigned chatter = 0;  // edges still to come, as fast as they are read
   bool active() const { return level != active_low; }
 };
 
@@ -37,6 +38,8 @@ struct FakeChip {
   /// A pulse so short that the kernel finds the old level when it looks: two edges of the same name.
   void glitch(unsigned offset);
   int requested_lines() const;
+  /// Whether edges wait, those of a line that chatters among them.
+  bool edges_wait(unsigned offset);
 };
 
 struct FakeChips {

@@ -93,7 +93,7 @@ int gpiod_line_event_wait_bulk(gpiod_line_bulk* bulk, const timespec*, gpiod_lin
   return 0;
 }
 
-int gpiod_line_event_wait(gpiod_line* line, const timespec*) { return line->fake().queue.empty() ? 0 : 1; }
+int gpiod_line_event_wait(gpiod_line* line, const timespec*) { return line->chip->edges_wait(line->offset) ? 1 : 0; }
 
 int gpiod_line_event_read_multiple(gpiod_line* line, gpiod_line_event* events, unsigned int most) {
   unsigned count = 0;

@@ -151,9 +151,8 @@ int gpiod_line_request_set_value(gpiod_line_request* request, unsigned int offse
 }
 int gpiod_line_request_wait_edge_events(gpiod_line_request* request, int64_t timeout_ns) {
   if (timeout_ns > 0 && fake_chips().on_wait) fake_chips().on_wait();
-  const auto& lines = request->chip->lines;
   return std::any_of(request->offsets.begin(), request->offsets.end(),
-                     [&](unsigned offset) { return !lines[offset].queue.empty(); })
+                     [&](unsigned offset) { return request->chip->edges_wait(offset); })
              ? 1
              : 0;
 }

@@ -1,6 +1,7 @@
 // GpioLines against stand-ins of libgpiod: built twice, for 1.6 and for 2.x.
 #include "hal/linux/gpio_lines.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,6 +105,18 @@ TEST_F(GpioLinesTest, EdgesLostInTheKernelDoNotLoseTheLevel) {
   for (int i = 0; i < 41; ++i) chip_.drive(4, i % 2 == 0);
   EXPECT_EQ(read().size(), 16u);
   EXPECT_TRUE(*lines_.get(0)) << "the last edge kept was a falling one; the line is high";
+}
+
+TEST_F(GpioLinesTest, ALineThatChattersWithoutEndDoesNotHoldTheReader) {
+  ASSERT_TRUE(open().ok());
+  constexpr unsigned kChatter = 10'000;
+  chip_.lines[4].chatter = kChatter;
+  chip_.drive(5, true);
+  const auto edges = read();
+  EXPECT_GT(chip_.lines[4].chatter, kChatter - 100) << "read on while there was more to read";
+  const auto of_other = [](const GpioEdge& edge) { return edge.input == 1; };
+  EXPECT_EQ(std::count_if(edges.begin(), edges.end(), of_other), 1) << "the quiet line's edge is lost";
+  EXPECT_EQ(*lines_.get(0), chip_.lines[4].level);
 }
 
 TEST_F(GpioLinesTest, CloseGivesEverythingBack) {
