@@ -28,11 +28,12 @@ int MappedMemory::map() {
 }
 
 int MappedMemory::map_rom(const char* path) {
-  const int file = open(path, O_RDONLY | O_CLOEXEC);
+  // Without O_NONBLOCK the opening of a pipe waits for whoever will write into it.
+  const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return errno;
   struct stat about {};
   int error = fstat(file, &about) < 0 ? errno : 0;
-  if (error == 0 && S_ISDIR(about.st_mode)) error = EISDIR;
+  if (error == 0 && !S_ISREG(about.st_mode)) error = S_ISDIR(about.st_mode) ? EISDIR : EMEDIUMTYPE;
   const auto bytes = static_cast<std::size_t>(about.st_size);
   if (error == 0 && bytes > kMostRomBytes) error = EFBIG;
   if (error == 0 && bytes > 0) {

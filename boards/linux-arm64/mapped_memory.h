@@ -18,8 +18,8 @@ class MappedMemory {
   /// RAM, VRAM and the engine's working memory, all zeros. 0, or errno.
   int map();
   /// The file as ROM, read-only; it must not be cut short while it is mapped. 0, or errno (EFBIG: longer than
-  /// kMostRomBytes). Without a ROM, or of an empty file, rom is empty: the device then says that it has no drawing
-  /// data.
+  /// kMostRomBytes; EISDIR, EMEDIUMTYPE: a folder, or a pipe or device). Without a ROM, or of an empty file, rom is
+  /// empty: the device then says that it has no drawing data.
   int map_rom(const char* path);
   /// Keeps what is used of it from being swapped out. 0, or errno: the limit of locked memory, most often.
   int lock();

@@ -19,4 +19,7 @@ expect 2 "error: --size 3: give" --rom a --size 3
 expect 5 "error: GPIO chip no such chip: not there" --rom "$0" --gpio-chip "no such chip"
 expect 5 "error: GPIO chip /dev/null: no GPIO chip" --rom "$0" --gpio-chip /dev/null
 expect 5 "note: --rom /nowhere.rom: No such file" --rom /nowhere.rom --gpio-chip "no such chip"
+pipe=$(mktemp -u) && mkfifo "$pipe"
+expect 5 "note: --rom $pipe: Wrong medium type" --rom "$pipe" --gpio-chip "no such chip"
+rm "$pipe"
 exit $status

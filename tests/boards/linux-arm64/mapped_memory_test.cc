@@ -6,6 +6,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "boards/linux-arm64/memory_map.h"
 
@@ -50,6 +52,20 @@ TEST(MappedMemory, WithoutAFileTheRomIsEmpty) {
   EXPECT_EQ(memory.map_rom("/"), EISDIR);
   EXPECT_EQ(memory.map_rom(file_with("").c_str()), 0);
   EXPECT_TRUE(memory.memory().rom.bytes.empty());
+}
+
+TEST(MappedMemory, APipeOrADeviceIsRefusedAtOnce) {
+  const std::string path = ::testing::TempDir() + "usuzumi-mapped-memory-test.fifo";
+  std::filesystem::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  MappedMemory memory;
+  ASSERT_EQ(memory.map(), 0);
+  alarm(10);  // an opening that waits for a writer ends the test
+  EXPECT_EQ(memory.map_rom(path.c_str()), EMEDIUMTYPE);
+  EXPECT_EQ(memory.map_rom("/dev/zero"), EMEDIUMTYPE);
+  alarm(0);
+  EXPECT_TRUE(memory.memory().rom.bytes.empty());
+  std::filesystem::remove(path);
 }
 
 TEST(MappedMemory, AFileThatTheBusCannotHoldIsRefused) {
