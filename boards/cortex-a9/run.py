@@ -287,8 +287,7 @@ DEEDS = {"read-null": r"fault: data abort at 0x00000000, status 0x[0-9a-f]{8}, p
          "misalign": r"fault: data abort at 0x00800002, status 0x00000001",   # alignment
          "run-data": r"fault: prefetch abort at 0x00800000, status 0x0000000d, pc 0x00800000",
          "undefined": r"fault: undefined instruction, pc 0x001",
-         "overflow-stack": r"fault: data abort at 0x000ff",
-         "new": r"trap: operator new: there is no heap, called from 0x001"}
+         "overflow-stack": r"fault: data abort at 0x000ff"}
 
 
 def traps(bench):

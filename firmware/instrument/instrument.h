@@ -44,8 +44,8 @@ struct StepReport {
 /// Ignition off: the backlight goes off as soon as the pins are read, the display is black from the next vertical blank
 /// on (a board whose pins interrupt can do both at once, amid a drawing); drawing data, thinned copy and mode stay as
 /// they are. Ignition on: the backlight comes on once the first picture has been sent whole, and unbroken, so that
-/// nothing but correct pictures is ever lit. That takes the drawing of one picture (after boot with its thinning) and at
-/// most kWakeFrames frames of the display.
+/// nothing but correct pictures is ever lit. That takes the drawing of one picture (after boot with its thinning) and
+/// at most kWakeFrames frames of the display.
 ///
 /// A fault shows the safe picture: at the end of the step that finds it. A hung engine is found after
 /// DeviceConfig::engine_timeout_us, a display that runs dry in the step after.
