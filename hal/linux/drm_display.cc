@@ -206,15 +206,15 @@ Status DrmDisplay::refuse_pictures(const Scanout& scanout) {
   const int result = device_.create_buffer(scanout.width, scanout.height, drm.bits, drm.fourcc, trial);
   device_.destroy_buffer(trial);
   const bool not_taken = result == -EINVAL || result == -ENOENT;  // ENOENT is virtio-gpu's word for a format
-  const char* const format = rgb565 ? "RGB565" : "XRGB8888";
-  text_.clear();
-  text_.text("display ").text(path_).text(not_taken ? " takes no " : ": ").text(format).text(" pictures of ");
-  text_.size(scanout.width, scanout.height);
+  StatusText& text = refused_[rgb565 ? 0 : 1];
+  text.clear();
+  text.text("display ").text(path_).text(not_taken ? " takes no " : ": ").text(rgb565 ? "RGB565" : "XRGB8888");
+  text.text(" pictures of ").size(scanout.width, scanout.height);
   if (not_taken)
-    return text_.text(rgb565 ? "; leave out --rgb565" : "; try --rgb565").text("; errno")
+    return text.text(rgb565 ? "; leave out --rgb565" : "; name another by --card").text("; errno")
         .status(StatusCode::kInvalidArgument, static_cast<std::uint32_t>(-result));
-  if (result < 0) return text_.text(advice(result)).errno_status(result);
-  return text_.text(" were refused a moment ago; start the program anew; width")
+  if (result < 0) return text.text(advice(result)).errno_status(result);
+  return text.text(" were refused a moment ago; start the program anew; width")
       .status(StatusCode::kUnavailable, scanout.width);
 }
 

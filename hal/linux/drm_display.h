@@ -74,6 +74,7 @@ class DrmDisplay final : public Display {
   DumbBuffer black_;  // what is shown before the first picture
   std::size_t mapped_bytes_ = 0;  // of VRAM at each picture
   StatusText text_;
+  StatusText refused_[2];  // RGB565, XRGB8888: the firmware tries one after the other, and tells the first answer
 };
 
 }  // namespace usuzumi::linux_hal

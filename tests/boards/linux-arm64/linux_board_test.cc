@@ -198,6 +198,18 @@ TEST_F(LinuxBoardTest, BadDrawingDataShowTheSafePictureWhileTheIgnitionIsOnUntil
   }
 }
 
+TEST_F(LinuxBoardTest, ACardThatTakesNoPictureIsToldOfTheFormatAskedForAndNothingIsLit) {
+  kernel_.card.formats.clear();
+  ASSERT_TRUE(open().ok());
+  EXPECT_EQ(run(0), boards::kExitDevice) << "goes on without a display";
+  ASSERT_EQ(lines_.size(), 1u);
+  EXPECT_EQ(lines_[0],
+            "error: display /dev/dri/card0 takes no XRGB8888 pictures of 64x48; name another by --card; errno 22");
+  EXPECT_FALSE(chip_.lines[kBacklight].level);
+  board_.close();
+  EXPECT_TRUE(kernel_.as_before());
+}
+
 TEST_F(LinuxBoardTest, WithoutADisplayTheLightIsOffAndThePinsAreGivenBack) {
   chip_.lines[kBacklight].level = true;  // as a boot loader may leave it
   kernel_.card.path = "/dev/fb0";

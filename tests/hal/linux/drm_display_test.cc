@@ -350,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(
         NoPictures{"AFormatNotTaken", DRM_IOCTL_MODE_ADDFB2, EINVAL, k565, StatusCode::kInvalidArgument,
                    "display /dev/dri/card0 takes no RGB565 pictures of 64x48; leave out --rgb565; errno"},
         NoPictures{"AFormatNotThere", DRM_IOCTL_MODE_ADDFB2, ENOENT, kXrgb, StatusCode::kInvalidArgument,
-                   "display /dev/dri/card0 takes no XRGB8888 pictures of 64x48; try --rgb565; errno"},
+                   "display /dev/dri/card0 takes no XRGB8888 pictures of 64x48; name another by --card; errno"},
         NoPictures{"NoMemory", DRM_IOCTL_MODE_CREATE_DUMB, ENOMEM, kXrgb, StatusCode::kUnavailable,
                    "display /dev/dri/card0: XRGB8888 pictures of 64x48: no memory for pictures of this size; give the "
                    "driver more (cma=), or ask for a smaller --size; errno"},
