@@ -41,15 +41,22 @@ data_abort_entry:
     sub r1, lr, #8
     b usuzumi_fault
 
-@ The program runs in SVC mode, so its own stack is in use and its lr is gone; semihosting.cc counts on that.
+@ The program runs in SVC mode, so its own stack is in use and its lr is gone; semihosting.cc counts on that, and on all
+@ else but r0 being as it was. 224 bytes, as below.
 supervisor_call_entry:
-    push {r2-r4, r12}
-    mrs r3, spsr
-    push {r3, lr}
+    push {r1-r4, r12, lr}
+    vpush {d0-d7}
+    vpush {d16-d31}
+    mrs r2, spsr
+    vmrs r3, fpscr
+    push {r2, r3}
     bl usuzumi_no_debugger
-    pop {r3, lr}
-    msr spsr_cxsf, r3
-    pop {r2-r4, r12}
+    pop {r2, r3}
+    vmsr fpscr, r3
+    msr spsr_cxsf, r2
+    vpop {d16-d31}
+    vpop {d0-d7}
+    pop {r1-r4, r12, lr}
     movs pc, lr
 
 @ 224 bytes, a multiple of 8: the stack stays aligned as C++ wants it. d8-d15 and r4-r11 are kept by what is called.
