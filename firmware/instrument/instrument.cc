@@ -11,6 +11,7 @@ constexpr std::uint32_t kDarkSleepUs = 16'667;
 Status Instrument::boot(const InstrumentConfig& config) {
   pins_.set_backlight(false);
   lit_ = false;
+  black_ = true;
   fault_ = ok_status();
   config_ = config;
   controls_ = {};
@@ -41,14 +42,15 @@ StepReport Instrument::step(const FrameRequest& request) {
 void Instrument::stay_dark(StepReport& report) {
   report.shown = Shown::kDark;
   fault_ = ok_status();  // the next ignition tries anew
-  if (!lit_) {
+  if (lit_) pins_.set_backlight(false);
+  lit_ = false;
+  if (black_) {
     pins_.wait_for_change(kDarkSleepUs);
     return;
   }
-  lit_ = false;
-  pins_.set_backlight(false);
   // A display that does not answer is dark all the same: its light is off. The next ignition finds it out.
   report.fault = device_.blank();
+  black_ = true;
 }
 
 void Instrument::draw(const FrameRequest& request, StepReport& report) {
@@ -62,7 +64,10 @@ void Instrument::draw(const FrameRequest& request, StepReport& report) {
     stay_dark(report);
     return;
   }
-  if (status.ok()) status = device_.show_picture(report.frame);
+  if (status.ok()) {
+    black_ = false;  // even where it fails: the picture may come late
+    status = device_.show_picture(report.frame);
+  }
   if (status.ok()) {
     report.shown = Shown::kPicture;
     fault_ = ok_status();
@@ -76,6 +81,8 @@ Status Instrument::light(StepReport& report) {
   Status status = device_.complete_picture();
   if (status.ok()) status = display_.check();  // it was sent whole, and unbroken
   if (!status.ok()) return status;
+  read_pins();
+  if (!controls_.ignition()) return status;  // it has gone off meanwhile; the next step is dark
   pins_.set_backlight(true);
   lit_ = true;
   report.wake_ns = clock_.now_ns() - controls_.ignition_on_ns();
@@ -85,6 +92,7 @@ Status Instrument::light(StepReport& report) {
 void Instrument::show_fault(const Status& fault, StepReport& report) {
   fault_ = report.fault = fault;
   safe_since_ns_ = clock_.now_ns();
+  black_ = false;
   Status status = device_.show_safe_picture();
   if (status.ok()) {
     report.shown = Shown::kSafePicture;

@@ -38,8 +38,8 @@ struct StepReport {
   std::uint64_t wake_ns = 0;  // from ignition on to light on, in the step that did it; 0 in all others
 };
 
-/// Pins are read as a step begins and again when its picture is drawn, so that the instrument follows them within a
-/// frame, or within the drawing of one where that takes longer.
+/// Pins are read as a step begins, when its picture is drawn, and before the light goes on, so that the instrument
+/// follows them within a frame, or within the drawing of one where that takes longer.
 ///
 /// Ignition off: the backlight goes off as soon as the pins are read, the display is black from the next vertical blank
 /// on (a board whose pins interrupt can do both at once, amid a drawing); drawing data, thinned copy and mode stay as
@@ -84,6 +84,7 @@ class Instrument {
   InstrumentConfig config_;
   Controls controls_;
   bool lit_ = false;
+  bool black_ = true;               // the display has been sent nothing since boot, or nothing but black
   Status booted_;                   // what boot() came to
   Status fault_;                    // while the safe picture is shown
   std::uint64_t safe_since_ns_ = 0;

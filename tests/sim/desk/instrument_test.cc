@@ -164,6 +164,15 @@ TEST_F(InstrumentOnMachine, IgnitionOffWhileAPictureIsDrawnLeavesItUnshown) {
   EXPECT_EQ(settled_crc(), black_crc());
 }
 
+TEST_F(InstrumentOnMachine, IgnitionOffWhileTheFirstPictureIsSentLeavesItUnlitAndThenBlack) {
+  boot();
+  pins.reads_until_off = 2;  // at the step's beginning and after the drawing it is on, before the light it is off
+  EXPECT_FALSE(step().backlight);
+  EXPECT_EQ(pins.light_changed, 0u) << "no flash";
+  EXPECT_EQ(step().shown, Shown::kDark);
+  EXPECT_EQ(settled_crc(), black_crc());
+}
+
 TEST_F(InstrumentOnMachine, WakesWithinTwoFramesAndTheDrawingOfOne) {
   boot();
   const StepReport cold = step();
