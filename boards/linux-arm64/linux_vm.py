@@ -153,12 +153,14 @@ def needed_libraries(program: pathlib.Path) -> dict:
 class Vm(Qemu):
     """The machine, switched on. `orders`: a file of the initramfs whose programs /init runs (vm_init.cpp)."""
 
-    def __init__(self, image, initramfs, orders, *, gpu=(800, 480), timeout_s=180.0):
+    def __init__(self, image, initramfs, orders, *, gpu=(800, 480), count=False, timeout_s=180.0):
         display = ["-device", f"virtio-gpu-pci,xres={gpu[0]},yres={gpu[1]}"] if gpu else []
+        # count: an instruction takes 1 ns of virtual time, and a processor that sleeps wakes at once.
+        counting = ["-icount", "shift=0,sleep=off"] if count else []
         super().__init__(
             ["qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a53", "-m", "512", "-nic", "none", "-no-reboot",
              "-kernel", image, "-initrd", initramfs,
-             "-append", f"console=ttyAMA0 quiet panic=-1 -- {orders}", *display],
+             "-append", f"console=ttyAMA0 quiet panic=-1 -- {orders}", *display, *counting],
             qtest=True, timeout_s=timeout_s, answer_s=60.0)
         self._gpio = self.paths_of("pl061")[0]
 

@@ -5,11 +5,13 @@
   is the simulator's picture, the CRC-32 its CRC-32, and the backlight's line what it must be.
 - What is missing, damaged or refused gives one line and the documented exit code; the safe picture where there is a
   display. SIGTERM ends the program with the light off and the console's picture back.
+- Instructions a frame, by QEMU's own count: what the program's clock says where an instruction takes a nanosecond.
 - The golden scenes under qemu-user: instructions are the same, no kernel is needed.
 """
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tarfile
@@ -215,6 +217,30 @@ def check_exit(vm, code):
     check(line == f"exit {code}", f"the program ended with '{line}', not exit {code}")
 
 
+# ---- what a frame costs ---------------------------------------------------------------------------------------------
+
+COUNTED_FRAMES = 6  # the first is thinned, the others are drawn of the same copy
+
+
+def count_instructions(context, image, initramfs):
+    """(of the first frame, median of the others): instructions to thin and to draw, in whole thousands. What the kernel
+    does meanwhile, its timer's interrupts above all, is counted along."""
+    expected = context.expected_frames(COUNTED_FRAMES)
+    costs = []
+    with Vm(image, initramfs, "/count", count=True) as vm:
+        vm.drive(IGNITION, 1)
+        vm.resume()
+        for frame in expected:
+            line = vm.wait_for_line("frame ")
+            said = re.search(r" crc32=([0-9a-f]{8}) .* thin_us=(\d+) draw_us=(\d+)", line)
+            check(said and said.group(1) == frame["crc32"],
+                  f"counting: not the simulator's picture of CRC-32 {frame['crc32']}: {line}")
+            costs.append((int(said.group(2)) + int(said.group(3))) * 1000)
+        check_exit(vm, 0)
+        vm.wait_exit()
+    return costs[0], int(statistics.median(costs[1:]))
+
+
 # ---- what goes wrong ------------------------------------------------------------------------------------------------
 
 SAFE_CASES = [  # (options, words of the error, exit code): the display shows the safe picture
@@ -228,9 +254,19 @@ REFUSED_CASES = [  # the program ends before it touches the display
     ("--rom /drawing.rom --ignition 3 --mode 99", r"error: GPIO chip gpiochip0 line 99: the chip has no such line.*", 5),
     ("--rom /drawing.rom --size 801x480", r"error: display /dev/dri/card0 has no 801x480; it has 800x480 .*", 5),
     ("--rom /drawing.rom --card /dev/dri/card7", r"error: display /dev/dri/card7: not there; .* errno 2", 5),
-    ("--rom /drawing.rom --rgb565", r"error: display: has no such picture format; width 800", 5),  # of virtio-gpu
+    ("--rom /drawing.rom --rgb565",  # virtio-gpu takes XRGB8888 alone
+     r"error: display /dev/dri/card0 takes no RGB565 pictures of 800x480; leave out --rgb565; errno \d+", 5),
     ("--rom /drawing.rom --size big", r"error: --size big: give width and height in pixels.*", 2),
 ]
+
+# As an unprivileged user, in groups that vm_init.cpp gives GPIO chips (990) and cards (44) to; without an end, as the
+# service runs. (groups, options, words of the error)
+NO_CARD_CASE = ("990", "--rom /drawing.rom", r"error: display /dev/dri/card0: no permission; .*\(video\).* errno 13")
+HELD_CARD_CASE = ("990,44", "--rom /drawing.rom --ignition 0 --mode 1 --backlight 2",
+                  r"error: display /dev/dri/card0: setting the mode: no permission; .*"
+                  r"no other program shows pictures on this card; errno 13")
+OWN_BACKLIGHT = 2  # of that case
+AT_ONCE_S = 5      # from the error to the program's end, on a loaded machine
 
 BUSY_CASES = [  # while another instrument runs
     ("--rom /drawing.rom", r"error: GPIO chip gpiochip0 line 4: in use; .* errno 16", 5),
@@ -238,15 +274,21 @@ BUSY_CASES = [  # while another instrument runs
 ]
 
 
+def as_user(case):
+    groups, options, _ = case
+    return f"user=1000 groups={groups} /usr/bin/usuzumi-device {options}"
+
+
 def orders():
     return {"drive": [device("--rom /drawing.rom --orbit", frames=FRAMES)],
+            "count": [device("--rom /drawing.rom --orbit", frames=COUNTED_FRAMES, pause=False)],
             "safe": [device(options) for options, _, _ in SAFE_CASES],
             "refused": ["user=1000 " + device("--rom /drawing.rom", pause=False)] +
-                       [device(options, pause=False) for options, _, _ in REFUSED_CASES] +
+                       [device(options, pause=False) for options, _, _ in REFUSED_CASES] + [as_user(NO_CARD_CASE)] +
                        ["stop /usr/bin/usuzumi-device --rom /drawing.rom",
                         "stop /usr/bin/usuzumi-device --rom /none.rom",
                         "beside /usr/bin/usuzumi-device --rom /drawing.rom"] +
-                       [device(options, pause=False) for options, _, _ in BUSY_CASES],
+                       [device(options, pause=False) for options, _, _ in BUSY_CASES] + [as_user(HELD_CARD_CASE)],
             "blind": [device("--rom /drawing.rom", pause=False)]}
 
 
@@ -288,6 +330,18 @@ def shows_console(vm, console, tries=20):
     return False
 
 
+def refused_user(vm, case, backlight):
+    """One line, exit code 5 at once, and dark: whoever has no rights does not stand by."""
+    groups, options, pattern = case
+    what = f"{options} as user 1000 of {groups}"
+    line = error_line(vm, pattern, what)
+    start = time.monotonic()
+    check_exit(vm, 5)
+    check(time.monotonic() - start < AT_ONCE_S, f"{what}: ends {AT_ONCE_S} s after its error")
+    check(vm.output(backlight) == 0, f"{what}: the backlight is on")
+    return line
+
+
 def refusals(context, image, initramfs):
     """Without rights, chip, card or size: one line, exit code 5. Then SIGTERM: dark, exit code 0, or 3 after bad data."""
     lines = []
@@ -299,6 +353,7 @@ def refusals(context, image, initramfs):
             lines.append(error_line(vm, pattern, options))
             check_exit(vm, code)
             check(vm.output(BACKLIGHT) == 0, f"{options}: the backlight is on")
+        lines.append(refused_user(vm, NO_CARD_CASE, BACKLIGHT))
         console = vm.screendump()
         for beginning, code in (("frame 0 picture", 0), ("error: ", 3)):
             vm.wait_for_line(beginning)
@@ -314,7 +369,11 @@ def refusals(context, image, initramfs):
             lines.append(error_line(vm, pattern, f"{options} beside another"))
             check_exit(vm, code)
             check(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
+        lines.append(refused_user(vm, HELD_CARD_CASE, OWN_BACKLIGHT))
+        check(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
         vm.wait_exit()
+        errors = [line for line in vm.console_lines if line.startswith("error: ")]
+        check(len(errors) == len(lines) + 1, "not one error's line of each case:\n" + "\n".join(errors))  # and SIGTERM's
     with Vm(image, initramfs, "/blind", gpu=None) as vm:
         vm.drive(IGNITION, 1)
         vm.resume()
@@ -343,10 +402,13 @@ def run(context):
     initramfs = make_initramfs(context, tree, modules, orders())
     crcs, boot, ram = drive(context, image, initramfs)
     errors = safe_pictures(context, image, initramfs) + refusals(context, image, initramfs)
+    first, steady = count_instructions(context, image, initramfs)
     goldens(context)
     sizes = command(["aarch64-linux-gnu-size", tree / "usr/bin/usuzumi-device"]).decode().splitlines()[1].split()
     (context.work / "refusals.txt").write_text("".join(f"{line}\n" for line in errors))
     notes = [boot, f"{crcs} screendumps equal the simulator's pictures, the pins and lights its own",
+             f"instructions: {first:,} the first frame with its thinning, {steady:,} the median of the {COUNTED_FRAMES - 1} "
+             "after it; the kernel's interrupts are counted along",
              f"{len(errors)} refusals, each one line and its exit code: {context.work / 'refusals.txt'}"]
     return {"wall_s": time.monotonic() - start, "crcs": crcs, "code_bytes": int(sizes[0]), "ram_bytes": ram,
-            "instructions_per_frame": None, "notes": notes}
+            "instructions_per_frame": steady, "notes": notes}

@@ -2,8 +2,8 @@
 // off.
 //
 // Behind "--" on the kernel's command line stands a file with a program and its arguments in every line; before these
-// words may stand `user=N`, a user and group to run as, `stop`, to send SIGTERM when a byte comes from the console, and
-// `beside`, to run the next program beside this one then.
+// words may stand `user=N`, a user and group to run as, `groups=N,N`, that user's other groups, `stop`, to send SIGTERM
+// when a byte comes from the console, and `beside`, to run the next program beside this one then.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -19,6 +19,7 @@
 #include <termios.h>
 #include <time.h>
 #include <unistd.h>
+#include <utility>
 
 namespace {
 
@@ -50,6 +51,14 @@ void load_modules() {
   std::fclose(order);
 }
 
+/// As udev does by the package's rule and by Debian's own; the number of the group gpio is an arbitrary one.
+void give_devices_to_groups() {
+  constexpr gid_t kGpio = 990, kVideo = 44;
+  for (const auto& [path, group] : {std::pair{"/dev/gpiochip0", kGpio}, std::pair{"/dev/dri/card0", kVideo}})
+    if (access(path, F_OK) == 0 && (chown(path, 0, group) < 0 || chmod(path, 0660) < 0))
+      std::printf("init: %s: %s\n", path, std::strerror(errno));
+}
+
 /// The console passes bytes on as they are, and lines end as on a terminal.
 void make_console_raw() {
   termios settings;
@@ -60,7 +69,7 @@ void make_console_raw() {
 }
 
 struct Order {
-  const char* user = nullptr;
+  const char *user = nullptr, *groups = "";
   bool stop = false, beside = false;
   char* words[40] = {};  // of the program, a null at the end
 };
@@ -70,6 +79,7 @@ Order order_of(char* line) {
   std::size_t count = 0;
   for (char* word = std::strtok(line, " \n"); word != nullptr; word = std::strtok(nullptr, " \n")) {
     if (count == 0 && std::strncmp(word, "user=", 5) == 0) order.user = word + 5;
+    else if (count == 0 && std::strncmp(word, "groups=", 7) == 0) order.groups = word + 7;
     else if (count == 0 && std::strcmp(word, "stop") == 0) order.stop = true;
     else if (count == 0 && std::strcmp(word, "beside") == 0) order.beside = true;
     else if (count + 1 < sizeof order.words / sizeof *order.words) order.words[count++] = word;
@@ -80,7 +90,14 @@ Order order_of(char* line) {
 [[noreturn]] void become(const Order& order) {
   if (order.user != nullptr) {
     const auto id = static_cast<uid_t>(std::strtoul(order.user, nullptr, 10));
-    if (setgroups(0, nullptr) < 0 || setgid(id) < 0 || setuid(id) < 0) std::perror("init: user");
+    gid_t groups[8];
+    std::size_t count = 0;
+    for (const char* at = order.groups; *at != '\0' && count < sizeof groups / sizeof *groups;) {
+      char* end;
+      groups[count++] = static_cast<gid_t>(std::strtoul(at, &end, 10));
+      at = *end == ',' ? end + 1 : "";
+    }
+    if (setgroups(count, groups) < 0 || setgid(id) < 0 || setuid(id) < 0) std::perror("init: user");
   }
   execv(order.words[0], order.words);
   std::printf("init: %s: %s\n", order.words[0], std::strerror(errno));
@@ -113,6 +130,7 @@ int main(int count, char** arguments) {
   load_modules();
   // A driver makes its device a moment after its module is in; a machine without one waits for the whole of it.
   for (int i = 0; i < 100 && access("/dev/dri/card0", F_OK) < 0; ++i) sleep_ms(10);
+  give_devices_to_groups();
   std::FILE* const orders = count > 1 ? std::fopen(arguments[1], "r") : nullptr;
   if (orders == nullptr) std::printf("init: no file of programs behind -- on the kernel's command line\n");
   char line[1024];
