@@ -13,6 +13,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -98,7 +99,7 @@ class Context:
         printed.write_text(output)
         text = run_command([sys.executable, ROOT / "tests/golden/check_manifest.py", ROOT / "tests/golden/manifest", printed,
                             "--board", self.board])
-        self.golden_lines = sum(1 for line in output.splitlines() if line.strip())
+        self.golden_lines = int(re.search(r"(\d+) of \d+ lines", text).group(1))
         return text
 
 

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import time
 
+import pictures
 import qemu
 
 FRAMES = 8           # of a turn around the model
@@ -75,8 +76,8 @@ def compare_step(board, line, expected, folder, name, rgb565=False):
     wanted = (expected["shown"], expected["mode"], int(expected["backlight"]))
     require((shown, mode, light) == wanted, f"{name}: {(shown, mode, light)}, the simulator has {wanted}: {line}")
     require(crc_of(line) == expected["crc32"], f"{name}: CRC-32 {crc_of(line)}, the simulator's is {expected['crc32']}")
-    picture = qemu.read_png(expected["png"])
-    qemu.compare(qemu.shifted_565(picture) if rgb565 else picture, board.screendump(), folder, name)
+    picture = pictures.read_png(expected["png"])
+    pictures.compare(pictures.shifted_565(picture) if rgb565 else picture, board.screendump(), folder, name)
 
 
 # ---- what is shown --------------------------------------------------------------------------------------------------
@@ -173,7 +174,7 @@ def ignition_off(board, gpio):
     """The times of the board's line; light and panel are dark."""
     apply(board, gpio, {"ignition": 0})
     off = fields_of(board.wait_for_line("ignition 0 "))
-    require(qemu.is_black(board.screendump()), "ignition off: the panel is not black")
+    require(pictures.is_black(board.screendump()), "ignition off: the panel is not black")
     require(lights_of(board)[-1] == 0, "ignition off: the backlight's line is not low")
     require(off["vcompares"] == 1, f"ignition off: black {off['vcompares']} vertical compares after its painting")
     return off
@@ -263,7 +264,7 @@ def bad_input(bench):
             if lit:
                 wait_for(lambda: 1 in lights_of(board), f"{name}: the safe picture is not lit")
                 name_of_files = f"safe-{name.replace(' ', '-')}"
-                qemu.compare(qemu.read_png(safe["png"]), board.screendump(), context.work, name_of_files)
+                pictures.compare(pictures.read_png(safe["png"]), board.screendump(), context.work, name_of_files)
             if code != 2:  # with wrong options it does not come to a step
                 board.send(b"s")
             got = board.wait_exit()
@@ -321,7 +322,7 @@ def without_debugger(bench, safe_png):
         wait_for(lambda: 1 in lights_of(board), "without a debugger: the safe picture is not lit")
         time.sleep(0.3)  # the exit is refused by now
         require(0 not in lights_of(board), "without a debugger: the safe picture's light goes off")
-        qemu.compare(qemu.read_png(safe_png), board.screendump(), bench.context.work, "safe-without-debugger")
+        pictures.compare(pictures.read_png(safe_png), board.screendump(), bench.context.work, "safe-without-debugger")
     with bench.machine(program="-traps", debugger=False) as board:
         board.watch_outputs(board.paths_of("pl061")[0])
         board.resume()

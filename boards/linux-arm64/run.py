@@ -19,7 +19,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from linux_vm import Initramfs, Vm, fetch_kernel, needed_libraries, run as command, unpack_kernel
-from qemu import compare, is_black, read_png
+from pictures import compare, is_black, read_png
 
 WIDTH, HEIGHT = 800, 480
 IGNITION, MODE, BACKLIGHT = 4, 5, 6  # lines of the PL061; 3 is the power key

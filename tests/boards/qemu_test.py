@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""boards/qemu.py without QEMU: pictures read, compared and told apart; programs that are not there or do not behave."""
+"""boards/pictures.py, and boards/qemu.py without QEMU: pictures read, compared and told apart; programs that are not
+there or do not behave."""
 import pathlib
 import stat
 import struct
@@ -9,7 +10,8 @@ import unittest
 import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "boards"))
-import qemu  # noqa: E402  (lies in boards)
+import pictures  # noqa: E402  (lies in boards)
+import qemu  # noqa: E402
 
 
 def png_of(rows, width, colour_type=2):
@@ -46,53 +48,53 @@ class Pictures(unittest.TestCase):
                 # Small numbers give predictions that are equally near.
                 row.append(numbers >> 16 & (3 if i // 5 % 2 else 255))
             self.rows.append(bytes(row))
-        self.picture = qemu.Picture(7, 40, b"".join(self.rows))
+        self.picture = pictures.Picture(7, 40, b"".join(self.rows))
 
     def file(self, name, data):
         (self.folder / name).write_bytes(data)
         return self.folder / name
 
     def test_a_png_of_every_filter_is_read(self):
-        self.assertEqual(qemu.read_png(self.file("a.png", png_of(self.rows, 7))), self.picture)
+        self.assertEqual(pictures.read_png(self.file("a.png", png_of(self.rows, 7))), self.picture)
 
     def test_alpha_is_left_out(self):
         rows = [b"".join(row[i:i + 3] + b"\x80" for i in range(0, 21, 3)) for row in self.rows]
-        self.assertEqual(qemu.read_png(self.file("a.png", png_of(rows, 7, colour_type=6))), self.picture)
+        self.assertEqual(pictures.read_png(self.file("a.png", png_of(rows, 7, colour_type=6))), self.picture)
 
     def test_a_damaged_png_is_refused(self):
         data = bytearray(png_of(self.rows, 7))
         data[50] ^= 1
         with self.assertRaisesRegex(ValueError, "damaged"):
-            qemu.read_png(self.file("a.png", bytes(data)))
+            pictures.read_png(self.file("a.png", bytes(data)))
         with self.assertRaisesRegex(ValueError, "not a PNG"):
-            qemu.read_png(self.file("b.png", b"P6"))
+            pictures.read_png(self.file("b.png", b"P6"))
 
     def test_what_is_written_is_read_again(self):
-        qemu.write_png(self.folder / "a.png", self.picture)
-        self.assertEqual(qemu.read_png(self.folder / "a.png"), self.picture)
+        pictures.write_png(self.folder / "a.png", self.picture)
+        self.assertEqual(pictures.read_png(self.folder / "a.png"), self.picture)
 
     def test_a_ppm_is_read_though_its_pixels_look_like_blanks(self):
         pixels = b"\n \t" + bytes(3)
-        self.assertEqual(qemu.read_ppm(self.file("a.ppm", b"P6\n2 1\n255\n" + pixels)), qemu.Picture(2, 1, pixels))
+        self.assertEqual(pictures.read_ppm(self.file("a.ppm", b"P6\n2 1\n255\n" + pixels)), pictures.Picture(2, 1, pixels))
         with self.assertRaisesRegex(ValueError, "needs 6 bytes"):
-            qemu.read_ppm(self.file("b.ppm", b"P6\n2 1\n255\n" + pixels[:5]))
+            pictures.read_ppm(self.file("b.ppm", b"P6\n2 1\n255\n" + pixels[:5]))
 
     def test_a_difference_is_told_by_its_first_pixel_and_left_to_be_looked_at(self):
-        qemu.compare(self.picture, self.picture, self.folder / "none", "same")
+        pictures.compare(self.picture, self.picture, self.folder / "none", "same")
         self.assertFalse((self.folder / "none").exists())
         other = bytearray(self.picture.rgb)
         other[3 * (4 * 7 + 2) + 1] ^= 0xFF
         other[-1] ^= 1
-        actual = qemu.Picture(7, 40, bytes(other))
-        with self.assertRaisesRegex(qemu.PicturesDiffer, "step: 2 pixels differ, the first at x 2, y 4: expected #"):
-            qemu.compare(self.picture, actual, self.folder / "left", "step")
-        self.assertEqual(qemu.read_png(self.folder / "left/step.expected.png"), self.picture)
-        self.assertEqual(qemu.read_png(self.folder / "left/step.actual.png"), actual)
-        with self.assertRaisesRegex(qemu.PicturesDiffer, "7x40 was expected, this is 40x7"):
-            qemu.compare(self.picture, qemu.Picture(40, 7, self.picture.rgb), self.folder / "left", "size")
+        actual = pictures.Picture(7, 40, bytes(other))
+        with self.assertRaisesRegex(pictures.PicturesDiffer, "step: 2 pixels differ, the first at x 2, y 4: expected #"):
+            pictures.compare(self.picture, actual, self.folder / "left", "step")
+        self.assertEqual(pictures.read_png(self.folder / "left/step.expected.png"), self.picture)
+        self.assertEqual(pictures.read_png(self.folder / "left/step.actual.png"), actual)
+        with self.assertRaisesRegex(pictures.PicturesDiffer, "7x40 was expected, this is 40x7"):
+            pictures.compare(self.picture, pictures.Picture(40, 7, self.picture.rgb), self.folder / "left", "size")
 
     def test_rgb565_loses_its_repeated_bits(self):
-        shifted = qemu.shifted_565(qemu.Picture(2, 1, bytes([0xFF, 0xFF, 0xFF, 0x08, 0x04, 0x07])))
+        shifted = pictures.shifted_565(pictures.Picture(2, 1, bytes([0xFF, 0xFF, 0xFF, 0x08, 0x04, 0x07])))
         self.assertEqual(shifted.rgb, bytes([0xF8, 0xFC, 0xF8, 0x08, 0x04, 0x00]))
 
 
