@@ -19,10 +19,14 @@ import sys
 import time
 import traceback
 
+from checks import Failure
+from pictures import PicturesDiffer
+from qemu import QemuError
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "boards"
 BOARDS = {name: ROOT / "boards" / name for name in ("cortex-m7", "cortex-a9", "linux-arm64")}
-BOARDS["minimal"] = ROOT / "tests/boards/minimal"  # what a port takes at least; it has no player of goldens
+BOARDS["minimal"] = ROOT / "tests/boards/minimal"  # what a port takes at least
 SIMULATED_AS = {"minimal": "cortex-m7"}            # the simulator's board with its picture
 MODEL = pathlib.Path("/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf")
 SIDECAR = ROOT / "sim/demo/CesiumMilkTruck.json"
@@ -30,25 +34,21 @@ BUILD_TIMEOUT_S = 1800
 COMMAND_TIMEOUT_S = 300
 
 
-class BoardFailure(Exception):
-    """What a board did otherwise than it must; the text is for a person."""
-
-
 def run_command(command, log=None, timeout=COMMAND_TIMEOUT_S, expect=0):
-    """The command's output; BoardFailure with its last lines when it ends otherwise than `expect`. `log` is appended to."""
+    """The command's output; Failure with its last lines when it ends otherwise than `expect`. `log` is appended to."""
     try:
         done = subprocess.run([str(word) for word in command], cwd=ROOT, timeout=timeout, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     except FileNotFoundError as e:
-        raise BoardFailure(f"{command[0]}: not found; bash boards/run.sh installs it") from e
+        raise Failure(f"{command[0]}: not found; bash boards/run.sh installs it") from e
     except subprocess.TimeoutExpired as e:
-        raise BoardFailure(f"{' '.join(map(str, command))}: took longer than {timeout} s") from e
+        raise Failure(f"{' '.join(map(str, command))}: took longer than {timeout} s") from e
     if log is not None:
         with open(log, "a", encoding="utf-8") as out:
             out.write(done.stdout)
     if done.returncode != expect:
         last = "\n".join(done.stdout.splitlines()[-40:])
-        raise BoardFailure(f"{' '.join(map(str, command))}: exit code {done.returncode}, not {expect}\n{last}")
+        raise Failure(f"{' '.join(map(str, command))}: exit code {done.returncode}, not {expect}\n{last}")
     return done.stdout
 
 
@@ -93,12 +93,13 @@ class Context:
             record["png"] = out / f"frame-{record['frame']:04}.png"
         return records
 
-    def check_golden(self, output):
-        """BoardFailure unless `output`, of the board's golden player, is what tests/golden/manifest says of this board."""
+    def check_golden(self, output, board=None):
+        """Failure unless `output`, of the board's golden player, is what tests/golden/manifest says of this board, or of
+        `board`."""
         printed = self.work / "golden.txt"
         printed.write_text(output)
         text = run_command([sys.executable, ROOT / "tests/golden/check_manifest.py", ROOT / "tests/golden/manifest", printed,
-                            "--board", self.board])
+                            "--board", board or self.board])
         self.golden_lines = int(re.search(r"(\d+) of \d+ lines", text).group(1))
         return text
 
@@ -122,15 +123,15 @@ def load_runner(board):
 
 
 def run_board(board, host):
-    """The row of the table. BoardFailure, or what the board's run.py raises, where anything differs."""
+    """The row of the table. Failure, or what the board's run.py raises, where anything differs."""
     start = time.monotonic()
     build(BUILD / board, ["--toolchain", BOARDS[board] / "board.cmake", f"-DUSUZUMI_BOARD={BOARDS[board]}",
                           "-DUSUZUMI_SIM=OFF", "-DUSUZUMI_TESTS=OFF", "-DUSUZUMI_WERROR=ON"])
     built = time.monotonic()
     context = Context(board, host)
     result = load_runner(board).run(context)
-    if context.golden_lines == 0 and board != "minimal":
-        raise BoardFailure(f"{board}: the goldens were not compared")
+    if context.golden_lines == 0:
+        raise Failure(f"{board}: the goldens were not compared")
     return {"built_s": built - start, "ran_s": time.monotonic() - built, "golden": context.golden_lines, **result}
 
 
@@ -163,12 +164,11 @@ def main():
     for board in boards:
         if board not in BOARDS:
             parser.error(f"there is no board {board}; there are {', '.join(BOARDS)}")
-    sys.path.insert(0, str(ROOT / "boards"))  # for qemu.py
     rows = {}
     try:
-        print("== building the simulator and recording the goldens", flush=True)
+        print(f"== the simulator and the goldens: building, at first for some minutes (log: {host}.log)", flush=True)
         prepare_host(host)
-    except BoardFailure as e:
+    except Failure as e:
         print(e, file=sys.stderr)
         return 1
     for board in boards:
@@ -179,7 +179,7 @@ def main():
                 print(f"   {note}")
         except Exception as e:  # whatever a board does, the others are run and the table is printed
             rows[board] = {"error": str(e)}
-            if not isinstance(e, BoardFailure):
+            if not isinstance(e, (Failure, PicturesDiffer, QemuError)):  # one of our own mistakes
                 traceback.print_exc()
             print(f"{board}: {e}", file=sys.stderr)
     print(f"\n{table(rows)}", flush=True)

@@ -11,6 +11,7 @@ import time
 
 import pictures
 import qemu
+from checks import require
 
 FRAMES = 8           # of a turn around the model
 NS_PER_INSTRUCTION = 2
@@ -22,15 +23,6 @@ FRAME_US = 16_667
 REPORT_US = 40_000   # the line behind each step, nearly all of it the CRC-32 of the picture
 # Budgets of the truck's frames: what it takes today and an eighth more. Who exceeds one finds out why, then raises it.
 CODE_BUDGET, RAM_BUDGET, INSTRUCTION_BUDGET = 270_000, 1_550_000, 30_000_000
-
-
-class Failure(Exception):
-    """The board does not do what it must; the text says what."""
-
-
-def require(condition, text):
-    if not condition:
-        raise Failure(text)
 
 
 def fields_of(line):
@@ -157,8 +149,10 @@ def pins_step_by_step(bench):
             else:
                 lights += lights_of(board)
                 if SCRIPT.get(step) == {"ignition": 0}:
-                    require(lights[-1] == 0, "the light waits for a step when the ignition goes off")
-                    require(not panel_powered(board), "the panel's colours wait for a step when the ignition goes off")
+                    wait_for(lambda: lights.extend(lights_of(board)) or lights[-1] == 0,
+                             "the light waits for a step when the ignition goes off")
+                    wait_for(lambda: not panel_powered(board),
+                             "the panel's colours wait for a step when the ignition goes off")
                 board.send(b"s")
             line = board.wait_for_line(f"frame {step} ")
             compare_step(board, line, record, bench.context.work, f"pins-{step:04}")

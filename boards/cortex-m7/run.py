@@ -12,6 +12,8 @@ import subprocess
 import tempfile
 import time
 
+from checks import Failure, require
+
 FLASH = 0x60400000  # __rom_start of link.ld
 ICOUNT = "shift=0,sleep=off"  # an instruction takes 1 ns; a sleeping processor's time goes on at once, by no host's clock
 TIMEOUT_S = 120     # of one program; the longest takes a few seconds
@@ -44,15 +46,6 @@ DEEDS = {  # of traps.cpp: what the console must say
     "index": "trap: array::at.*, called from 0x",
     "pure-virtual": "trap: pure virtual function, called from 0x",
 }
-
-
-class Failure(Exception):
-    """What the board did otherwise than it must."""
-
-
-def require(condition, text):
-    if not condition:
-        raise Failure(text)
 
 
 def qemu(program, flash, arguments, expect=0):

@@ -7,6 +7,7 @@ import stat
 import subprocess
 import tarfile
 
+from checks import Failure
 from qemu import Qemu
 
 KERNEL_PACKAGE = "linux-image-arm64"
@@ -15,7 +16,7 @@ LIBRARY_FOLDERS = ("/lib/aarch64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr
 GPIO_DATA = 0x0903_0000  # the PL061's data register of `virt`; its address bits 9:2 mask the lines
 
 
-class VmError(Exception):
+class VmError(Failure):
     """What could not be fetched or put together; the text says what, and what to do."""
 
 

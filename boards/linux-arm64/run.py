@@ -19,6 +19,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from linux_vm import Initramfs, Vm, fetch_kernel, needed_libraries, run as command, unpack_kernel
+from checks import require
 from pictures import compare, is_black, read_png
 
 WIDTH, HEIGHT = 800, 480
@@ -43,15 +44,6 @@ DRIVE = {0: [(IGNITION, 1)],
 NAMES = {IGNITION: "ignition", MODE: "mode"}
 
 
-class Difference(Exception):
-    """What the board did otherwise than it must."""
-
-
-def check(condition, what):
-    if not condition:
-        raise Difference(what)
-
-
 # ---- the package ----------------------------------------------------------------------------------------------------
 
 
@@ -70,20 +62,20 @@ def make_package(context):
     command(["dpkg-deb", "-x", the_package(context, "deb"), deb])
     check_files("the .deb", files_below(deb))
     fields = command(["dpkg-deb", "-f", the_package(context, "deb"), "Architecture", "Depends"]).decode()
-    check("Architecture: arm64" in fields and "libgpiod" in fields, f"the .deb says:\n{fields}")
+    require("Architecture: arm64" in fields and "libgpiod" in fields, f"the .deb says:\n{fields}")
     root = context.work / "root"
     shutil.rmtree(root, ignore_errors=True)
     command(["cmake", "--install", context.build, "--component", "device", "--prefix", root])
     check_files("the installed tree", files_below(root))
     machine = command(["aarch64-linux-gnu-readelf", "-h", tree / "usr/bin/usuzumi-device"]).decode()
-    check("AArch64" in machine, f"the package's program is not for AArch64:\n{machine}")
+    require("AArch64" in machine, f"the package's program is not for AArch64:\n{machine}")
     check_unit(tree / "usr/lib/systemd/system/usuzumi-device.service")
     return tree
 
 
 def the_package(context, ending):
     packages = list(context.build.glob(f"usuzumi-device_*_arm64.{ending}"))
-    check(len(packages) == 1, f"cpack made {len(packages)} packages .{ending} in {context.build}, not one")
+    require(len(packages) == 1, f"cpack made {len(packages)} packages .{ending} in {context.build}, not one")
     return packages[0]
 
 
@@ -92,7 +84,7 @@ def files_below(folder):
 
 
 def check_files(what, files):
-    check(files == PACKAGE_FILES, f"{what} holds {files}, not {PACKAGE_FILES}")
+    require(files == PACKAGE_FILES, f"{what} holds {files}, not {PACKAGE_FILES}")
 
 
 def check_unit(unit):
@@ -100,12 +92,12 @@ def check_unit(unit):
     text = unit.read_text()
     for words in ("ExecStart=/usr/bin/usuzumi-device", "EnvironmentFile=/etc/default/usuzumi-device", "Restart=on-failure",
                   "SupplementaryGroups=video gpio", "DeviceAllow=char-drm rw", "DeviceAllow=char-gpiochip rw"):
-        check(words in text, f"{unit.name} has no {words}")
+        require(words in text, f"{unit.name} has no {words}")
     if shutil.which("systemd-analyze"):
         done = subprocess.run(["systemd-analyze", "verify", str(unit)], capture_output=True, text=True, timeout=60)
         said = [line for line in (done.stdout + done.stderr).splitlines()
                 if unit.name in line and "is not executable: No such file" not in line]
-        check(not said, "systemd-analyze verify: " + "\n".join(said))
+        require(not said, "systemd-analyze verify: " + "\n".join(said))
 
 
 # ---- what is put into the machine -----------------------------------------------------------------------------------
@@ -154,7 +146,7 @@ def drive(context, image, initramfs):
     """(CRCs compared, the boot's line, most RAM in use): frame by frame as the simulator."""
     script = ",".join(f"{frame}:{NAMES[line]}={level}" for frame, line, level in simulated_events())
     expected = context.expected_frames(FRAMES, "--gpio", script)
-    check({e["shown"] for e in expected} == {"picture", "dark"} and
+    require({e["shown"] for e in expected} == {"picture", "dark"} and
           {e["mode"] for e in expected} == {"full", "thinned", "budget"}, "the drive does not show what it is to show")
     with Vm(image, initramfs, "/drive") as vm:
         for frame in range(FRAMES):
@@ -169,10 +161,10 @@ def drive(context, image, initramfs):
             check_frame(context, vm, said, expected[frame])
         vm.send(b"\n")
         check_exit(vm, 0)
-        check(vm.output(BACKLIGHT) == 0, "the backlight stays on when the program has ended")
+        require(vm.output(BACKLIGHT) == 0, "the backlight stays on when the program has ended")
         vm.wait_exit()
         ram = re.search(r" ram=(\d+)", said)
-        check(ram, f"no ram= in '{said}'")
+        require(ram, f"no ram= in '{said}'")
     return FRAMES, boot, int(ram.group(1))
 
 
@@ -189,13 +181,13 @@ def simulated_events():
 def check_frame(context, vm, line, expected):
     number = expected["frame"]
     said = re.match(r"frame (\d+) (\w+) (\w+) light=(\d) crc32=([0-9a-f]{8}) ", line)
-    check(said, f"no frame's line: {line}")
+    require(said, f"no frame's line: {line}")
     light = 1 if expected["backlight"] else 0
     wanted = (str(number), expected["shown"], expected["mode"], str(light), expected["crc32"])
-    check(said.groups() == wanted, f"frame {number}: the board says {said.groups()}, the simulator {wanted}")
-    check(vm.output(BACKLIGHT) == light, f"frame {number}: the backlight's line is not {light}")
+    require(said.groups() == wanted, f"frame {number}: the board says {said.groups()}, the simulator {wanted}")
+    require(vm.output(BACKLIGHT) == light, f"frame {number}: the backlight's line is not {light}")
     panel = check_panel(context, vm, expected, f"frame-{number:04}")
-    check(is_black(panel) == (expected["shown"] == "dark"), f"frame {number}: black, or not, against expectation")
+    require(is_black(panel) == (expected["shown"] == "dark"), f"frame {number}: black, or not, against expectation")
 
 
 def check_panel(context, vm, expected, name):
@@ -214,7 +206,7 @@ def check_panel(context, vm, expected, name):
 
 def check_exit(vm, code):
     line = vm.wait_for_line("exit ")
-    check(line == f"exit {code}", f"the program ended with '{line}', not exit {code}")
+    require(line == f"exit {code}", f"the program ended with '{line}', not exit {code}")
 
 
 # ---- what a frame costs ---------------------------------------------------------------------------------------------
@@ -233,7 +225,7 @@ def count_instructions(context, image, initramfs):
         for frame in expected:
             line = vm.wait_for_line("frame ")
             said = re.search(r" crc32=([0-9a-f]{8}) .* thin_us=(\d+) draw_us=(\d+)", line)
-            check(said and said.group(1) == frame["crc32"],
+            require(said and said.group(1) == frame["crc32"],
                   f"counting: not the simulator's picture of CRC-32 {frame['crc32']}: {line}")
             costs.append((int(said.group(2)) + int(said.group(3))) * 1000)
         check_exit(vm, 0)
@@ -294,14 +286,14 @@ def orders():
 
 def error_line(vm, pattern, options):
     line = vm.wait_for_line("error: ")
-    check(re.fullmatch(pattern, line), f"{options}: '{line}' is not as '{pattern}'")
+    require(re.fullmatch(pattern, line), f"{options}: '{line}' is not as '{pattern}'")
     return line
 
 
 def safe_pictures(context, image, initramfs):
     """Bad drawing data: one line, the safe picture with its light on, exit code 3."""
     safe = context.expected_frames(1, "--fault", "0:engine-hang=1")[0]
-    check(safe["shown"] == "safe", "the simulator does not show its safe picture")
+    require(safe["shown"] == "safe", "the simulator does not show its safe picture")
     lines = []
     with Vm(image, initramfs, "/safe") as vm:
         vm.drive(IGNITION, 1)
@@ -309,11 +301,11 @@ def safe_pictures(context, image, initramfs):
         for options, pattern, code in SAFE_CASES:
             lines.append(error_line(vm, pattern, options))
             check_panel(context, vm, safe, f"safe-{len(lines)}")
-            check(vm.output(BACKLIGHT) == 1, f"{options}: the safe picture is not lit")
+            require(vm.output(BACKLIGHT) == 1, f"{options}: the safe picture is not lit")
             vm.send(b"\n")
             check_exit(vm, code)
         vm.wait_exit()
-        check("note: --rom /none.rom: No such file or directory; usuzumi pack makes one" in vm.console_lines,
+        require("note: --rom /none.rom: No such file or directory; usuzumi pack makes one" in vm.console_lines,
               "a ROM that is not there is not named")
     return lines
 
@@ -337,8 +329,8 @@ def refused_user(vm, case, backlight):
     line = error_line(vm, pattern, what)
     start = time.monotonic()
     check_exit(vm, 5)
-    check(time.monotonic() - start < AT_ONCE_S, f"{what}: ends {AT_ONCE_S} s after its error")
-    check(vm.output(backlight) == 0, f"{what}: the backlight is on")
+    require(time.monotonic() - start < AT_ONCE_S, f"{what}: ends {AT_ONCE_S} s after its error")
+    require(vm.output(backlight) == 0, f"{what}: the backlight is on")
     return line
 
 
@@ -352,28 +344,28 @@ def refusals(context, image, initramfs):
         for options, pattern, code in cases:
             lines.append(error_line(vm, pattern, options))
             check_exit(vm, code)
-            check(vm.output(BACKLIGHT) == 0, f"{options}: the backlight is on")
+            require(vm.output(BACKLIGHT) == 0, f"{options}: the backlight is on")
         lines.append(refused_user(vm, NO_CARD_CASE, BACKLIGHT))
         console = vm.screendump()
         for beginning, code in (("frame 0 picture", 0), ("error: ", 3)):
             vm.wait_for_line(beginning)
-            check(vm.output(BACKLIGHT) == 1, "the backlight is off while the program runs")
-            check(not shows_console(vm, console, tries=1), "the console's picture is shown, not the instrument's")
+            require(vm.output(BACKLIGHT) == 1, "the backlight is off while the program runs")
+            require(not shows_console(vm, console, tries=1), "the console's picture is shown, not the instrument's")
             vm.send(b"\n")
             check_exit(vm, code)
-            check(vm.output(BACKLIGHT) == 0, "SIGTERM leaves the backlight on")
-            check(shows_console(vm, console), "SIGTERM does not bring the console's picture back")
+            require(vm.output(BACKLIGHT) == 0, "SIGTERM leaves the backlight on")
+            require(shows_console(vm, console), "SIGTERM does not bring the console's picture back")
         vm.wait_for_line("frame 0 picture")
         vm.send(b"\n")
         for options, pattern, code in BUSY_CASES:
             lines.append(error_line(vm, pattern, f"{options} beside another"))
             check_exit(vm, code)
-            check(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
+            require(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
         lines.append(refused_user(vm, HELD_CARD_CASE, OWN_BACKLIGHT))
-        check(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
+        require(vm.output(BACKLIGHT) == 1, "one refused puts out the other's light")
         vm.wait_exit()
         errors = [line for line in vm.console_lines if line.startswith("error: ")]
-        check(len(errors) == len(lines) + 1, "not one error's line of each case:\n" + "\n".join(errors))  # and SIGTERM's
+        require(len(errors) == len(lines) + 1, "not one error's line of each case:\n" + "\n".join(errors))  # and SIGTERM's
     with Vm(image, initramfs, "/blind", gpu=None) as vm:
         vm.drive(IGNITION, 1)
         vm.resume()

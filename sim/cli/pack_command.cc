@@ -23,6 +23,7 @@
 #include "sim/common/progress.h"
 #include "sim/common/report_errors.h"
 #include "sim/common/standard_streams.h"
+#include "sim/machine/board.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
 #include "sim/pack/names.h"
@@ -136,6 +137,8 @@ int pack(const PackOptions& options) {
   write_file_atomically(options.output, rom);
   writing.reset();
   print_notes(model);
+  if (!options.board.empty() && find_board(options.board) == nullptr)
+    print_note(fmt::format("--board {} is no board that usuzumi run knows; right if it is your own", options.board));
   print_summary(options, data);
   return exit_status(ExitCode::kOk);
 }

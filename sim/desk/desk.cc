@@ -30,9 +30,11 @@ constexpr std::uint64_t kLooksPerFrame = 64;
 void refuse_foreign(const std::string& rom_name, std::span<const std::byte> rom, std::string_view board) {
   const auto data = firmware::DrawingData::open(rom);
   if (!data.ok() || data->board().empty() || data->board() == board) return;
-  throw Error(ExitCode::kBadInput, fmt::format("{}: drawing data for board {} alone; run them with --board {}, or pack "
-                                               "them without --board",
-                                               rom_name, data->board(), data->board()));
+  const std::string remedy = find_board(data->board()) != nullptr
+                                 ? fmt::format("run them with --board {}, or pack them without --board", data->board())
+                                 : "which is none of the simulator's; pack them without --board to see them here";
+  throw Error(ExitCode::kBadInput,
+              fmt::format("{}: drawing data for board {} alone; {}", rom_name, data->board(), remedy));
 }
 
 [[noreturn]] void fail(const std::string& rom_name, const Status& status) {

@@ -57,7 +57,7 @@ ordered_json frame_json(const FrameRecord& f) {
           {"scanout_ms", f.scanout_ms},
           {"host_ms", f.host_ms},
           {"thinning",
-           {{"cause", cause_name(t.cause)},
+           {{"cause", t.meshes_in > 0 ? cause_name(t.cause) : "nothing drawn"},
             {"decisions", decisions_json(t)},
             {"meshes_built", t.meshes_built},
             {"meshes_collapsed", t.meshes_collapsed},

@@ -4,6 +4,8 @@
 #include "boards/bare_metal/start.h"
 #include "boards/bare_metal/trap.h"
 #include "boards/common/run.h"
+#include "tests/golden/player/bundle.h"
+#include "tests/golden/player/player.h"
 
 namespace {
 
@@ -45,16 +47,30 @@ class MinimalBoard final : public boards::Board {
 };
 
 constexpr std::uintptr_t kPsram = 0x21000000, kFlash = 0x21800000;
-constexpr std::size_t kVramBytes = 4 << 20, kFlashBytes = 8 << 20;
-alignas(64) std::byte ram[320 << 10], engine_work[1 << 20];
+constexpr std::size_t kVramBytes = 8 << 20, kFlashBytes = 8 << 20;
+alignas(64) std::byte ram[2 << 20], engine_work[1 << 20];
 
 std::span<std::byte> memory_at(std::uintptr_t address, std::size_t bytes) {
   return {reinterpret_cast<std::byte*>(address), bytes};
 }
 
+class Console final : public golden::LineSink {
+  void do_line(std::string_view line) override { boards::semihosting::print(line); }
+};
+
+/// The flash holds goldens in place of drawing data. Those too big for a cortex-a9 are too big for this board.
+int play_goldens(std::span<const std::byte> bundle) {
+  Console console;
+  const std::span<std::byte> vram = memory_at(kPsram, kVramBytes);
+  const Status played = golden::play(bundle, {ram, vram, engine_work}, "cortex-a9", console);
+  if (!played.ok()) boards::semihosting::print(played.message);
+  return boards::exit_code_of(played);
+}
+
 }  // namespace
 
 int main() {
+  if (device_register(kFlash) == golden::bundle::kMagic) return play_goldens(memory_at(kFlash, kFlashBytes));
   static MinimalBoard board;
   boards::RunConfig config;
   config.frames = 4;
