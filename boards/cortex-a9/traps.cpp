@@ -4,6 +4,7 @@
 #include <new>
 #include <string_view>
 
+#include "boards/bare_metal/deeds.h"
 #include "boards/bare_metal/semihosting.h"
 #include "boards/cortex-a9/cortex_a9_board.h"
 #include "boards/cortex-a9/gic.h"
@@ -14,21 +15,7 @@ namespace {
 
 using namespace usuzumi::boards;
 using namespace usuzumi::boards::cortex_a9;
-
-volatile std::uint32_t g_zero = 0;  // unknown to the compiler
-volatile std::uint32_t g_result = 0;
-void* volatile g_pointer = nullptr;
-
-volatile std::uint32_t* pointer_to(std::uintptr_t address) {
-  return reinterpret_cast<volatile std::uint32_t*>(address + g_zero);
-}
-
-[[gnu::noinline]] std::uint32_t endless(std::uint32_t depth) {
-  if (depth == g_zero - 1) return depth;  // four thousand million calls from here
-  volatile std::uint32_t frame[64] = {};
-  frame[depth % 64] = depth;
-  return endless(depth + 1) + frame[(depth + 1) % 64];
-}
+using namespace usuzumi::boards::deeds;
 
 /// What interrupts while floats are computed, and leaves none of the registers that a function may change as it was.
 void clobber_floats(void* timers) {

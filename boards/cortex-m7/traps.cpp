@@ -5,10 +5,11 @@
 #include <new>
 #include <string_view>
 
+#include "boards/bare_metal/deeds.h"
 #include "boards/bare_metal/semihosting.h"
 #include "boards/cortex-m7/memory_map.h"
 
-namespace deeds {  // not hidden in this file: the compiler would see that no class but Derived is there to call
+namespace usuzumi::boards::deeds {  // not hidden in this file: the compiler would see that no class but Derived is there to call
 
 /// Calls what no class has written yet.
 struct Base {
@@ -23,26 +24,12 @@ struct Derived final : Base {
   void pure() override {}
 };
 
-}  // namespace deeds
+}  // namespace usuzumi::boards::deeds
 
 namespace {
 
 using namespace usuzumi::boards;
-
-volatile std::uint32_t g_zero = 0;  // unknown to the compiler
-volatile std::uint32_t g_result = 0;
-void* volatile g_pointer = nullptr;
-
-volatile std::uint32_t* pointer_to(std::uintptr_t address) {
-  return reinterpret_cast<volatile std::uint32_t*>(address + g_zero);
-}
-
-[[gnu::noinline]] std::uint32_t endless(std::uint32_t depth) {
-  if (depth == g_zero - 1) return depth;  // four thousand million calls from here
-  volatile std::uint32_t frame[64] = {};
-  frame[depth % 64] = depth;
-  return endless(depth + 1) + frame[(depth + 1) % 64];
-}
+using namespace usuzumi::boards::deeds;
 
 bool commit(std::string_view deed) {
   if (deed == "read-null") g_result = *pointer_to(0);
@@ -54,7 +41,7 @@ bool commit(std::string_view deed) {
   else if (deed == "new") g_pointer = ::operator new(g_zero + 4);
   else if (deed == "assert") assert(g_zero == 1);
   else if (deed == "index") g_result = std::array{1u, 2u, 3u}.at(g_zero + 3);
-  else if (deed == "pure-virtual") deeds::Derived{};
+  else if (deed == "pure-virtual") Derived{};
   else return false;
   return true;
 }

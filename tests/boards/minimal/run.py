@@ -14,7 +14,7 @@ def printed_with(context, flash):
     done = subprocess.run(
         ["qemu-system-arm", "-M", "mps2-an386", "-nographic", "-monitor", "none",
          "-semihosting-config", "enable=on,target=native", "-device", f"loader,file={flash},addr={FLASH},force-raw=on",
-         "-kernel", str(context.build / "boards/board/usuzumi_minimal")],
+         "-kernel", str(context.build / "boards/board/usuzumi_minimal.elf")],
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
     require(done.returncode == 0, f"exit code {done.returncode}\n{done.stdout}")
     return done.stdout
