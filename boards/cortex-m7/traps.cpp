@@ -9,7 +9,8 @@
 #include "boards/bare_metal/semihosting.h"
 #include "boards/cortex-m7/memory_map.h"
 
-namespace usuzumi::boards::deeds {  // not hidden in this file: the compiler would see that no class but Derived is there to call
+// Not hidden in this file: the compiler would see that no class but Derived is there to call.
+namespace usuzumi::boards::deeds {
 
 /// Calls what no class has written yet.
 struct Base {
