@@ -28,6 +28,11 @@ void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, AttributeShares 
     colours[to] = rgba8(mix_channel(a.r(), b.r(), shares.colour), mix_channel(a.g(), b.g(), shares.colour),
                         mix_channel(a.b(), b.b(), shares.colour), mix_channel(a.a(), b.a(), shares.colour));
   }
+  if (texture_coordinates != nullptr) {
+    TexCoord& a = texture_coordinates[to];
+    const TexCoord b = texture_coordinates[from];
+    a = {a.s + (b.s - a.s) * shares.colour, a.t + (b.t - a.t) * shares.colour};
+  }
 }
 
 float position_along(Vec3 edge, Vec3 offset) {

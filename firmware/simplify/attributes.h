@@ -1,4 +1,4 @@
-// Normals and colours of wedges while edges collapse.
+// Normals, colours and texture coordinates of wedges while edges collapse.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace usuzumi::firmware {
 
 /// How much of the second end's attributes the new vertex gets, in [0, 1].
 struct AttributeShares {
-  float colour = 0.5f;  // by place: colours lie on the surface
+  float colour = 0.5f;  // by place: colours and texture coordinates lie on the surface
   float normal = 0.5f;  // by place and weight: what has to look evenly lit is mostly the largest faces around
 
   AttributeShares reversed() const { return {1.0f - colour, 1.0f - normal}; }
@@ -24,8 +24,9 @@ AttributeShares shares_at(float t, float weight_of_first, float weight_of_second
 struct WedgeAttributes {
   PackedNormal* normals = nullptr;  // null where absent
   Rgba8* colours = nullptr;
+  TexCoord* texture_coordinates = nullptr;
 
-  bool any() const { return normals != nullptr || colours != nullptr; }
+  bool any() const { return normals != nullptr || colours != nullptr || texture_coordinates != nullptr; }
   /// Wedge `to` takes on `shares` of wedge `from`.
   void mix(std::uint32_t to, std::uint32_t from, AttributeShares shares) const;
 };

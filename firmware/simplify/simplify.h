@@ -10,16 +10,30 @@
 
 namespace usuzumi::firmware {
 
-/// A triangle list in RAM that a method works on in place. Positions may repeat with different normals or colours (a
-/// sharp border); methods weld them by exact position (-0 equals 0) and keep the attributes apart.
+class CollapseLog;
+
+/// A triangle list in RAM that a method works on in place. Positions may repeat with different normals, colours or
+/// texture coordinates (a sharp border, a seam); methods weld them by exact position (-0 equals 0) and keep the
+/// attributes apart.
 struct WorkingMesh {
-  std::span<Vec3> positions;         // vertex_count; finite
-  std::span<PackedNormal> normals;   // vertex_count, or empty
-  std::span<Rgba8> colours;          // vertex_count, or empty
-  std::span<std::uint32_t> indices;  // 3 per face, each < vertex_count (checked by the caller)
+  std::span<Vec3> positions = {};                // vertex_count; finite
+  std::span<PackedNormal> normals = {};          // vertex_count, or empty
+  std::span<Rgba8> colours = {};                 // vertex_count, or empty
+  std::span<TexCoord> texture_coordinates = {};  // vertex_count, finite, or empty
+  std::span<const float> edge_values = {};       // vertex_count of the mesh as given, or empty; see EdgeRemovalSettings
+  std::span<std::uint32_t> indices = {};         // 3 per face, each < vertex_count (checked by the caller)
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;
 };
+
+/// The author's choice per mesh. The numbers are those of drawing data.
+enum class Method : std::uint8_t {
+  kQem = 0,             // quadric error edge collapse (Garland & Heckbert 1997)
+  kEdgeRemoval = 1,     // evaluation-function edge removal with texture (US 6,396,952)
+  kHalfEdge = 2,        // seam-aware half-edge collapse, no new vertices (CN101231761A)
+  kVertexDeletion = 3,  // vertex deletion by least energy (Sato, Kitazawa, Onozawa)
+};
+inline constexpr std::uint32_t kMethodCount = 4;
 
 enum class Placement : std::uint8_t {
   kOptimal,  // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most);
@@ -27,9 +41,52 @@ enum class Placement : std::uint8_t {
   kMidpoint,  // the middle of the two ends (JP2015-22462A claim 5)
 };
 
+/// Where edge removal puts the vertex that stays (US 6,396,952, p. 19-22, figs. 4 and 5).
+enum class EdgePlacement : std::uint32_t {
+  kAutomatic = 0,    // convex or concave around the edge: least change; S-shaped: equal change
+  kEqualVolume = 1,  // the volume changes alike on both sides
+  kLeastVolume = 2,  // the volume changes least
+  kKeepAnEnd = 3,    // the end whose removal changes less goes
+  kMidpoint = 4,
+};
+
+/// What edge removal does with an edge on a texture boundary whose value by eq. (2) is above the limit (p. 27-30).
+enum class BoundaryAnswer : std::uint32_t { kRefuse = 0, kLimitMovement = 1 };
+
+/// Of Method::kEdgeRemoval. 40 bytes; the layout of drawing data (format.h, section METH).
+struct EdgeRemovalSettings {
+  float a = 1;               // of the volume term of eq. (1); >= 0
+  float b = 0.1f;            // of the sheet term; >= 0
+  float neighbour_weight = 0;  // how much of the neighbouring edges' mean value is added to an edge's own; 0: none
+  float computed_weight = 1;   // of eq. (1)'s value, >= 0 ...
+  float user_weight = 1;       // ... and of the author's value of the edge: the larger of its ends' edge_values
+  EdgePlacement placement = EdgePlacement::kAutomatic;
+  BoundaryAnswer boundary_answer = BoundaryAnswer::kLimitMovement;
+  float boundary_limit = 1e-4f;  // of eq. (2), as a share of the squared diagonal of the mesh's box; >= 0
+  std::uint32_t reserved[2] = {};
+};
+static_assert(sizeof(EdgeRemovalSettings) == 40);
+/// The edge value of a vertex that is locked: an edge of which either end is locked is not removed.
+inline constexpr float kLockedEdgeValue = -1;
+
+/// Of Method::kVertexDeletion: coefficients of eq. (5), those of boundary vertices, and what a vertex's terms may reach
+/// before it is left out of the order (0: no limit). The limits of area and move rise to the values here in 6 stages.
+/// 40 bytes; the layout of drawing data (format.h, section METH).
+struct VertexDeletionSettings {
+  float area = 1, move = 1, normal = 1, largest = 0.1f;  // a, b, c, d; >= 0
+  float boundary_area = 10;                              // a of boundary vertices
+  float limit_area = 0.5f, limit_move = 1, limit_normal = 0, limit_largest = 0;
+  float protrusion_penalty = 10;  // added to E_move where the line along the normal meets no new triangle
+};
+static_assert(sizeof(VertexDeletionSettings) == 40);
+
 struct SimplifyOptions {
   std::uint32_t target_faces = 0;
-  Placement placement = Placement::kOptimal;
+  Placement placement = Placement::kOptimal;  // of Method::kQem
+  Method method = Method::kQem;
+  EdgeRemovalSettings edge_removal = {};
+  VertexDeletionSettings vertex_deletion = {};
+  CollapseLog* log = nullptr;  // receives every step where not null (firmware/layers/collapse_log.h)
 };
 
 enum class StopReason : std::uint8_t {
@@ -38,24 +95,25 @@ enum class StopReason : std::uint8_t {
 };
 
 struct SimplifyWork {  // for the machine's cost model
-  std::uint64_t edges_costed = 0;
+  std::uint64_t edges_costed = 0;  // edges, or vertices where the method goes by vertices
   std::uint64_t queue_operations = 0;
   std::uint64_t collapses = 0;
 };
 
 struct SimplifyOutcome {
   StopReason stop = StopReason::kQuotaReached;
-  float max_error = 0;  // largest root of (collapse cost / summed quadric area): a distance, in model units
+  float max_error = 0;  // model units. QEM, half-edge: largest root of (cost / summed quadric area); edge removal,
+                        // vertex deletion: largest distance that a vertex was moved, or lay from the new faces
   SimplifyWork work;
 };
 
-/// Quadric error edge collapse (Garland & Heckbert 1997) down to `options.target_faces`. On return the mesh's counts
-/// are the thinned ones and its spans' first elements hold the result, unreferenced vertices removed, original order
-/// kept. kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it
-/// was. `scratch` is left as it was found.
-Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
+/// Thins `mesh` by `options.method` down to `options.target_faces`. On return the mesh's counts are the thinned ones
+/// and its spans' first elements hold the result, unreferenced vertices removed, original order kept.
+/// kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it was.
+/// `scratch` is left as it was found.
+Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
 
-/// Bytes of scratch that simplify_qem needs for a mesh of these counts. May be more than the device can address.
-std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count);
+/// Bytes of scratch that simplify() needs for a mesh of these counts. May be more than the device can address.
+std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count);
 
 }  // namespace usuzumi::firmware

@@ -43,7 +43,8 @@ bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span
   const Vec3* positions = mesh.positions.data();
   const PackedNormal* normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
   const Rgba8* colours = mesh.colours.empty() ? nullptr : mesh.colours.data();
-  const bool has_attributes = normals != nullptr || colours != nullptr;
+  const TexCoord* coordinates = mesh.texture_coordinates.empty() ? nullptr : mesh.texture_coordinates.data();
+  const bool has_attributes = normals != nullptr || colours != nullptr || coordinates != nullptr;
   auto position_hash = [=](std::uint32_t w) { return hash_position(positions[w]); };
   auto same_position = [=](std::uint32_t a, std::uint32_t b) { return positions[a] == positions[b]; };
 
@@ -54,11 +55,13 @@ bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span
       std::uint32_t hash = hash_position(positions[w]);
       if (normals != nullptr) hash = mixed(hash, normals[w].bits);
       if (colours != nullptr) hash = mixed(hash, colours[w].bits);
+      if (coordinates != nullptr) hash = mixed(mixed(hash, bits_of(coordinates[w].s)), bits_of(coordinates[w].t));
       return hash;
     };
     auto same_wedge = [=](std::uint32_t a, std::uint32_t b) {
       return positions[a] == positions[b] && (normals == nullptr || normals[a] == normals[b]) &&
-             (colours == nullptr || colours[a] == colours[b]);
+             (colours == nullptr || colours[a] == colours[b]) &&
+             (coordinates == nullptr || coordinates[a] == coordinates[b]);
     };
     find_first_equals(count, table, vertex_of_wedge, wedge_hash, same_wedge);
   }

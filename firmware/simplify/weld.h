@@ -1,4 +1,5 @@
-// Finding vertices in a list of wedges: equal positions are one vertex, whatever their normals and colours.
+// Finding vertices in a list of wedges: equal positions are one vertex, whatever their normals, colours and texture
+// coordinates.
 #pragma once
 
 #include <cstdint>

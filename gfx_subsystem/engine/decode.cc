@@ -63,6 +63,9 @@ class Decoder {
       case Opcode::kSetVertexStreams: return take<SetVertexStreams>(payload);
       case Opcode::kClear: return take<Clear>(payload);
       case Opcode::kDraw: return take<Draw>(payload);
+      case Opcode::kSetTexture:
+      case Opcode::kSetFragmentState:
+        return fault(StatusCode::kUnsupported, "textures are not supported by this engine version");
       case Opcode::kEnd: break;
     }
     return fault(StatusCode::kUnsupported, "unknown opcode");
@@ -168,7 +171,7 @@ class Decoder {
   }
 
   Status apply(const SetVertexStreams& p) {
-    if (p.texture_coordinates != 0 || p.texture_coordinate_stride != 0)
+    if (p.texture_coordinates != 0)
       return fault(StatusCode::kUnsupported,
                    "vertex streams: texture coordinates are not supported by this engine version");
     state_.streams = {};

@@ -9,12 +9,13 @@
 
 namespace usuzumi::testing {
 
-/// An indexed triangle list that owns its memory. `normals` and `colours` are empty or as long as `positions`.
+/// An indexed triangle list that owns its memory. Attributes are empty or as long as `positions`.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> indices;
   std::vector<PackedNormal> normals;
   std::vector<Rgba8> colours;
+  std::vector<TexCoord> texture_coordinates;
 
   std::size_t face_count() const { return indices.size() / 3; }
 };

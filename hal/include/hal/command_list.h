@@ -32,7 +32,8 @@ enum class Opcode : std::uint8_t {
   kSetVertexStreams = 0x08,
   kClear = 0x10,
   kDraw = 0x11,
-  // 0x20-0x2F are kept for textures and samplers.
+  kSetTexture = 0x20,
+  kSetFragmentState = 0x21,
 };
 
 enum class PixelFormat : std::uint32_t {
@@ -55,6 +56,16 @@ enum class CullMode : std::uint32_t { kNone = 0, kBack = 1, kFront = 2 };
 enum class FrontFace : std::uint32_t { kCounterClockwise = 0, kClockwise = 1 };  // as seen on the panel
 enum class DepthFunction : std::uint32_t { kAlways = 0, kLess = 1, kLessEqual = 2 };
 enum class Topology : std::uint32_t { kPoints = 0, kLines = 1, kTriangles = 2, kTriangleStrip = 3, kTriangleFan = 4 };
+enum class TextureFormat : std::uint32_t {
+  kNone = 0,      // no texture: a fragment has the interpolated colour alone
+  kRgb565 = 1,    // as PixelFormat's; texels are opaque
+  kXrgb8888 = 2,  // as PixelFormat's; texels are opaque
+  kArgb8888 = 3,  // 32 bits: alpha 31-24 (not multiplied into the colours), then as kXrgb8888
+};
+constexpr std::uint32_t bytes_per_texel(TextureFormat f) { return f == TextureFormat::kRgb565 ? 2 : 4; }
+enum class TextureFilter : std::uint32_t { kNearest = 0, kBilinear = 1 };  // within a level; the nearest level is taken
+enum class TextureWrap : std::uint32_t { kRepeat = 0, kClamp = 1, kMirror = 2 };  // clamp: to the edge's texels
+enum class BlendMode : std::uint32_t { kNone = 0, kAlpha = 1 };  // alpha: colour * a + what is there * (1 - a)
 enum class IndexFormat : std::uint32_t { kNone = 0, kU16 = 1, kU32 = 2 };
 
 /// Colour target. Rows of `width` pixels, `stride_bytes` apart, top row first. width and height 1..4096; base and
@@ -123,8 +134,30 @@ struct SetVertexStreams {
   BusAddress colours = 0;          // Rgba8 each
   std::uint32_t colour_stride = 4;
   Rgba8 constant_colour{};         // base colour where the colour stream is absent
-  BusAddress texture_coordinates = 0;  // kept for textures; must be 0
-  std::uint32_t texture_coordinate_stride = 0;
+  BusAddress texture_coordinates = 0;  // TexCoord each; needed where a texture is set
+  std::uint32_t texture_coordinate_stride = 8;
+};
+
+/// The image that following draws are covered with, and how it is sampled: fragment = texel * interpolated colour, per
+/// channel, alpha included. Level i is max(1, width >> i) by max(1, height >> i) texels, top row first, every row
+/// padded to a multiple of 4 bytes; levels follow one another without gaps.
+struct SetTexture {
+  TextureFormat format = TextureFormat::kNone;
+  BusAddress base = 0;            // of level 0; a multiple of 4
+  std::uint32_t width = 0;        // texels, 1..4096, of level 0; any size, not powers of two alone
+  std::uint32_t height = 0;
+  std::uint32_t level_count = 1;  // 1 .. floor(log2(max(width, height))) + 1
+  TextureFilter filter = TextureFilter::kBilinear;
+  TextureWrap wrap_s = TextureWrap::kRepeat;
+  TextureWrap wrap_t = TextureWrap::kRepeat;
+};
+
+/// What becomes of a fragment after texturing. Its alpha is the interpolated colour's (the vertex's or the constant
+/// one's) times the texel's.
+struct SetFragmentState {
+  std::uint32_t alpha_test = 0;       // 0 or 1: a fragment whose alpha is below the reference is not drawn at all
+  std::uint32_t alpha_reference = 0;  // 0..255
+  BlendMode blend = BlendMode::kNone;
 };
 
 inline constexpr std::uint32_t kClearColour = 1, kClearDepth = 2;
@@ -158,6 +191,8 @@ template <> struct OpcodeOf<SetLight> { static constexpr Opcode value = Opcode::
 template <> struct OpcodeOf<SetRasterState> { static constexpr Opcode value = Opcode::kSetRasterState; };
 template <> struct OpcodeOf<SetVertexStreams> { static constexpr Opcode value = Opcode::kSetVertexStreams; };
 template <> struct OpcodeOf<Clear> { static constexpr Opcode value = Opcode::kClear; };
+template <> struct OpcodeOf<SetTexture> { static constexpr Opcode value = Opcode::kSetTexture; };
+template <> struct OpcodeOf<SetFragmentState> { static constexpr Opcode value = Opcode::kSetFragmentState; };
 template <> struct OpcodeOf<Draw> { static constexpr Opcode value = Opcode::kDraw; };
 
 template <class Packet> inline constexpr std::uint32_t kPayloadWords = sizeof(Packet) / 4;

@@ -33,6 +33,14 @@ struct Vec4 {
   float x = 0, y = 0, z = 0, w = 0;
 };
 
+/// A place on a texture, 8 bytes: (0, 0) is the image's top left corner, (1, 1) its bottom right one; s runs right, t
+/// down. The layout of texture coordinates in drawing data.
+struct TexCoord {
+  float s = 0, t = 0;
+  friend constexpr bool operator==(const TexCoord&, const TexCoord&) = default;
+};
+static_assert(sizeof(TexCoord) == 8);
+
 /// Row-major 4x4: clip = m * (x, y, z, 1), row r of the product is m[4r]x + m[4r+1]y + m[4r+2]z + m[4r+3].
 struct Mat4 {
   float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include "firmware/simplify/simplify.h"
+#include "firmware/simplify/qem/qem.h"
 #include "tests/bench/simplify/error_meter.h"
 #include "tests/bench/simplify/models.h"
 
@@ -42,7 +42,11 @@ void run_ours(const Mesh& input, std::size_t target_faces, std::vector<std::byte
   run.mesh = input;
   memory.resize(firmware::qem_scratch_bytes(vertices, faces));
   Arena scratch(memory);
-  firmware::WorkingMesh working{run.mesh.positions, {}, run.mesh.colours, run.mesh.indices, vertices, faces};
+  firmware::WorkingMesh working{.positions = run.mesh.positions,
+                                .colours = run.mesh.colours,
+                                .indices = run.mesh.indices,
+                                .vertex_count = vertices,
+                                .face_count = faces};
   const auto start = std::chrono::steady_clock::now();
   const auto outcome =
       firmware::simplify_qem(working, {.target_faces = static_cast<std::uint32_t>(target_faces)}, scratch);

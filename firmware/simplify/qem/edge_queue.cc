@@ -1,4 +1,4 @@
-#include "firmware/simplify/edge_queue.h"
+#include "firmware/simplify/qem/edge_queue.h"
 
 #include <algorithm>
 

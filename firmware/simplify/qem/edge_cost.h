@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware/simplify/edge_minimum.h"
+#include "firmware/simplify/qem/edge_minimum.h"
 #include "firmware/simplify/quadric.h"
 #include "firmware/simplify/simplify.h"
 #include "firmware/simplify/surface.h"

@@ -1,5 +1,5 @@
 // What an edge costs: one at a time and many at once, and where its vertex goes.
-#include "firmware/simplify/edge_cost.h"
+#include "firmware/simplify/qem/edge_cost.h"
 
 #include <gtest/gtest.h>
 

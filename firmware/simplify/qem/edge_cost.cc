@@ -1,8 +1,8 @@
-#include "firmware/simplify/edge_cost.h"
+#include "firmware/simplify/qem/edge_cost.h"
 
 #include <cstring>
 
-#include "firmware/simplify/edge_minimum.h"
+#include "firmware/simplify/qem/edge_minimum.h"
 
 namespace usuzumi::firmware {
 namespace {

@@ -1,4 +1,4 @@
-#include "firmware/simplify/edge_candidates.h"
+#include "firmware/simplify/qem/edge_candidates.h"
 
 namespace usuzumi::firmware {
 

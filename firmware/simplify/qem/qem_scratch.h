@@ -6,23 +6,19 @@
 #include <span>
 
 #include "firmware/simplify/edge_key.h"
-#include "firmware/simplify/surface.h"
+#include "firmware/simplify/working_surface.h"
 #include "hal/arena.h"
 
 namespace usuzumi::firmware {
 
 struct QemScratch {
-  std::span<std::uint32_t> vertex_of_wedge;
-  std::span<std::uint32_t> weld_table;  // shares its memory with `links` and what follows, which come to be used later
-  std::span<Place> places;
-  std::span<Vertex> vertices;
-  std::span<std::uint32_t> links;  // 4 per face
+  SurfaceMemory surface;  // the weld table shares its memory with `links` and what follows, which come to be used later
   std::span<EdgeKey> candidates;
   std::span<EdgeKey> queue;
   std::size_t batch_size = 0;  // keys; the rest of `queue` is room for edges that a collapse brings up
 };
 
-/// Takes qem_scratch_bytes (simplify.h) from `arena`. False, and nothing taken, where they do not fit.
+/// Takes qem_scratch_bytes (qem.h) from `arena`. False, and nothing taken, where they do not fit.
 bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count, QemScratch& scratch);
 
 }  // namespace usuzumi::firmware

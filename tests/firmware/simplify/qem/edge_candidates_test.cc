@@ -1,5 +1,5 @@
 // The table of cheapest edges, against sorted lists.
-#include "firmware/simplify/edge_candidates.h"
+#include "firmware/simplify/qem/edge_candidates.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/firmware/simplify/edge_keys.h"
+#include "tests/firmware/simplify/qem/edge_keys.h"
 
 namespace usuzumi::testing {
 namespace {

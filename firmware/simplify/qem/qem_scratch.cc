@@ -1,6 +1,6 @@
-#include "firmware/simplify/qem_scratch.h"
+#include "firmware/simplify/qem/qem_scratch.h"
 
-#include "firmware/simplify/simplify.h"
+#include "firmware/simplify/qem/qem.h"
 #include "firmware/simplify/weld.h"
 
 namespace usuzumi::firmware {
@@ -54,14 +54,14 @@ bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t f
   const std::span<std::byte> memory = arena.allocate<std::byte>(static_cast<std::size_t>(bytes), kAlignment);
   if (memory.data() == nullptr) return false;
   Arena rest(memory);  // from here on everything fits: the sizes above are the sum of these
-  scratch.vertex_of_wedge = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
-  scratch.places = rest.allocate<Place>(vertex_count, kAlignment);
-  scratch.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
+  scratch.surface.vertex_of_wedge = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
+  scratch.surface.places = rest.allocate<Place>(vertex_count, kAlignment);
+  scratch.surface.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
   const std::size_t mark = rest.used();
-  scratch.weld_table =
+  scratch.surface.weld_table =
       rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
   rest.rewind(mark);
-  scratch.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
+  scratch.surface.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
   scratch.candidates = rest.allocate<EdgeKey>(static_cast<std::size_t>(candidate_slots(face_count)), kAlignment);
   scratch.queue = rest.allocate<EdgeKey>(static_cast<std::size_t>(queue_slots(face_count)), kAlignment);
   scratch.batch_size = static_cast<std::size_t>(batch_size(face_count));

@@ -1,5 +1,5 @@
 // The order of edges, against a sorted list.
-#include "firmware/simplify/edge_queue.h"
+#include "firmware/simplify/qem/edge_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/firmware/simplify/edge_keys.h"
+#include "tests/firmware/simplify/qem/edge_keys.h"
 
 namespace usuzumi::testing {
 namespace {

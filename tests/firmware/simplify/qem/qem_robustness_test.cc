@@ -5,6 +5,7 @@
 #include <random>
 #include <span>
 
+#include "firmware/simplify/qem/qem.h"
 #include "hal/crc32.h"
 #include "tests/firmware/simplify/simplify_fixture.h"
 
@@ -123,7 +124,8 @@ TEST(QemRobustness, ScratchIsGivenBackAndItsSizeIsWhatWasSaid) {
     std::vector<std::byte> memory(need + misalignment);
     Arena scratch(memory);
     (void)scratch.allocate<std::byte>(misalignment);
-    firmware::WorkingMesh working{copy.positions, {}, {}, copy.indices, vertices, faces};
+    firmware::WorkingMesh working{.positions = copy.positions, .indices = copy.indices, .vertex_count = vertices,
+                                  .face_count = faces};
     ASSERT_TRUE(firmware::simplify_qem(working, {.target_faces = 100}, scratch).ok()) << misalignment;
     EXPECT_EQ(scratch.used(), misalignment);
     EXPECT_LE(scratch.high_water(), need + misalignment);
@@ -158,7 +160,8 @@ TEST(QemRobustness, WhatTheScratchHeldBeforeDoesNotMatter) {
     Mesh copy = mesh;
     std::vector<std::byte> memory(firmware::qem_scratch_bytes(vertices, faces), static_cast<std::byte>(fill));
     Arena scratch(memory);
-    firmware::WorkingMesh working{copy.positions, {}, {}, copy.indices, vertices, faces};
+    firmware::WorkingMesh working{.positions = copy.positions, .indices = copy.indices, .vertex_count = vertices,
+                                  .face_count = faces};
     ASSERT_TRUE(firmware::simplify_qem(working, {.target_faces = 150}, scratch).ok());
     copy.positions.resize(working.vertex_count);
     copy.indices.resize(std::size_t{working.face_count} * 3);

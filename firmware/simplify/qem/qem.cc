@@ -7,28 +7,25 @@
 // be. And edges are not ordered over the whole mesh but region by region up to a cost that rises from pass to pass
 // (edge_candidates.h): memory is then walked along, not jumped about in, and the time per face hardly grows with the
 // mesh.
+#include "firmware/simplify/qem/qem.h"
+
 #include <cmath>
 
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/collapse_rules.h"
-#include "firmware/simplify/edge_candidates.h"
+#include "firmware/simplify/qem/edge_candidates.h"
 #include "firmware/simplify/edge_collapse.h"
-#include "firmware/simplify/edge_cost.h"
-#include "firmware/simplify/edge_queue.h"
+#include "firmware/simplify/qem/edge_cost.h"
+#include "firmware/simplify/qem/edge_queue.h"
 #include "firmware/simplify/initial_quadrics.h"
-#include "firmware/simplify/qem_scratch.h"
-#include "firmware/simplify/simplify.h"
+#include "firmware/simplify/qem/qem_scratch.h"
 #include "firmware/simplify/surface.h"
-#include "firmware/simplify/weld.h"
+#include "firmware/simplify/working_surface.h"
 
 namespace usuzumi::firmware {
 namespace {
 
 constexpr std::uint32_t kEdgesAtOnce = 256;  // costed in one go when candidates are looked for; arbitrary
-
-// Coordinates are brought near this by a power of two, exactly, so that neither squared areas nor costs leave the range
-// of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
-constexpr float kWorkingExtent = 4096;
 
 // Planes that touch a curved surface meet outside it, but not as far outside as evens out the chords of the faces
 // between: simplified to the quadrics' minima, a ball shrinks. Moving along the mean normal until the collapse keeps
@@ -54,20 +51,19 @@ class QemSimplifier {
 
   Result<SimplifyOutcome> run(Arena& scratch) {
     if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
-    build_connectivity();
+    build_surface(mesh_, memory_, working_);
+    faces_ = working_.live_faces;
     if (faces_ > options_.target_faces) {
       set_initial_quadrics(surface_);
       collapse_to_target();
-      outcome_.max_error *= 1.0f / scale_;
+      outcome_.max_error *= 1.0f / working_.scale;
     }
-    write_result();
+    write_surface(mesh_, working_);
     return outcome_;
   }
 
  private:
   bool carve(Arena& scratch);
-  void build_connectivity();
-  void copy_positions();
   void collapse_to_target();
   void fetch_ahead();
   bool find_candidates();
@@ -82,7 +78,6 @@ class QemSimplifier {
   void refuse(Corner edge);
   void allow_again_around(std::uint32_t v);
   void allow_again_at(std::uint32_t v);
-  void write_result();
 
   EdgeCost cost_of_edge(Corner edge) {
     ++outcome_.work.edges_costed;
@@ -91,69 +86,26 @@ class QemSimplifier {
 
   WorkingMesh& mesh_;
   const SimplifyOptions options_;
-  Surface surface_;
-  WedgeAttributes attributes_;
+  SurfaceMemory memory_;
+  WorkingSurface working_;
+  Surface& surface_ = working_.surface;
   CollapseRules rules_;
   EdgeCandidates candidates_;
   EdgeQueue queue_;  // a batch of candidates
   std::size_t batch_size_ = 0;
   EdgeKey limit_ = 0;  // of the pass: what costs more is left for a later one
-  std::span<std::uint32_t> vertex_of_wedge_;
-  std::span<std::uint32_t> weld_table_;
-  std::uint32_t* seam_map_ = nullptr;  // vertex_of_wedge_ where some vertex has several wedges
   std::uint32_t faces_ = 0;            // live
-  float scale_ = 1;
   SimplifyOutcome outcome_;
 };
 
 bool QemSimplifier::carve(Arena& scratch) {
   QemScratch memory;
   if (!carve_qem_scratch(scratch, mesh_.vertex_count, mesh_.face_count, memory)) return false;
-  vertex_of_wedge_ = memory.vertex_of_wedge;
-  weld_table_ = memory.weld_table;
-  surface_.places = memory.places.data();
-  surface_.vertices = memory.vertices.data();
-  surface_.links = memory.links.data();
+  memory_ = memory.surface;
   candidates_ = EdgeCandidates(memory.candidates);
   queue_ = EdgeQueue(memory.queue);
   batch_size_ = memory.batch_size;
-  surface_.indices = mesh_.indices.data();
-  surface_.vertex_count = mesh_.vertex_count;
-  surface_.face_count = mesh_.face_count;
-  attributes_ = {mesh_.normals.empty() ? nullptr : mesh_.normals.data(),
-                 mesh_.colours.empty() ? nullptr : mesh_.colours.data()};
   return true;
-}
-
-void QemSimplifier::build_connectivity() {
-  if (weld(mesh_, vertex_of_wedge_, weld_table_)) {
-    seam_map_ = vertex_of_wedge_.data();
-    surface_.vertex_of_wedge = seam_map_;
-  }
-  faces_ = link_corners(surface_);
-  copy_positions();
-}
-
-void QemSimplifier::copy_positions() {
-  Vec3 low, high;
-  bool any = false;
-  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) {
-    if (surface_.first_corner(v) == kNoCorner) continue;
-    const Vec3 p = mesh_.positions[v];
-    if (!any) low = high = p;
-    any = true;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
-  }
-  // Halves first: the difference of two finite singles may be infinite.
-  const Vec3 half = high * 0.5f - low * 0.5f;
-  float extent = half.x > half.y ? half.x : half.y;
-  extent = extent > half.z ? extent : half.z;
-  if (extent > 0) {
-    while (extent * scale_ > kWorkingExtent) scale_ *= 0.5f;
-    while (extent * scale_ <= kWorkingExtent / 2 && scale_ < 0x1p100f) scale_ *= 2.0f;
-  }
-  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) surface_.places[v] = {mesh_.positions[v] * scale_, 0};
 }
 
 void QemSimplifier::collapse_to_target() {
@@ -294,12 +246,12 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   else if (rules_.turns_a_face(n, position)) return false;
 
   AttributeShares shares;
-  if (attributes_.any()) {
+  if (working_.attributes.any()) {
     const float t = position_along(surface_.position(n.b) - a, cost.offset);
     shares = shares_at(t, weight_of(surface_.vertices[n.a].quadric), weight_of(surface_.vertices[n.b].quadric));
   }
   const std::uint32_t singular = (surface_.places[n.a].mark | surface_.places[n.b].mark) & kSingular;
-  const CollapsedEdge collapsed = collapse_edge(surface_, seam_map_, attributes_, n, shares);
+  const CollapsedEdge collapsed = collapse_edge(surface_, working_.seam_map, working_.attributes, n, shares);
   const std::uint32_t v = collapsed.vertex;
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;
@@ -348,40 +300,9 @@ void QemSimplifier::allow_again_at(std::uint32_t v) {
   }
 }
 
-/// Moves what is left to the front of the mesh's arrays, in its old order.
-void QemSimplifier::write_result() {
-  constexpr std::uint32_t kUnused = 0xFFFFFFFFu, kUsed = 0;
-  Place* wedges = surface_.places;  // `mark` becomes each wedge's new number
-  for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) wedges[w].mark = kUnused;
-  std::uint32_t faces = 0;
-  for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
-    if (surface_.is_dead(face)) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t wedge = mesh_.indices[std::size_t{face} * 3 + k];
-      wedges[wedge].mark = kUsed;
-      mesh_.indices[std::size_t{faces} * 3 + k] = wedge;
-    }
-    ++faces;
-  }
-  std::uint32_t used = 0;
-  for (std::uint32_t w = 0; w < mesh_.vertex_count; ++w) {
-    if (wedges[w].mark == kUnused) continue;
-    mesh_.positions[used] = wedges[seam_map_ == nullptr ? w : seam_map_[w]].position * (1.0f / scale_);
-    if (attributes_.normals != nullptr) mesh_.normals[used] = mesh_.normals[w];
-    if (attributes_.colours != nullptr) mesh_.colours[used] = mesh_.colours[w];
-    wedges[w].mark = used++;
-  }
-  for (std::size_t i = 0; i < std::size_t{faces} * 3; ++i) mesh_.indices[i] = wedges[mesh_.indices[i]].mark;
-  mesh_.vertex_count = used;
-  mesh_.face_count = faces;
-}
-
 }  // namespace
 
 Result<SimplifyOutcome> simplify_qem(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch) {
-  if (mesh.face_count > kMostFaces)
-    return Status{StatusCode::kUnsupported, "a mesh has more faces than simplify_qem can number; split it",
-                  mesh.face_count};
   const ScratchScope scope(scratch);
   QemSimplifier simplifier(mesh, options);
   return simplifier.run(scratch);

@@ -1,0 +1,31 @@
+#include "firmware/simplify/simplify.h"
+
+#include "firmware/simplify/qem/qem.h"
+#include "firmware/simplify/surface.h"
+
+namespace usuzumi::firmware {
+
+Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch) {
+  if (mesh.face_count > kMostFaces)
+    return Status{StatusCode::kUnsupported, "a mesh has more faces than simplify can number; split it",
+                  mesh.face_count};
+  switch (options.method) {
+    case Method::kQem: return simplify_qem(mesh, options, scratch);
+    case Method::kEdgeRemoval:
+    case Method::kHalfEdge:
+    case Method::kVertexDeletion: break;
+  }
+  return Status{StatusCode::kUnsupported, "thinning method of a later release", static_cast<std::uint32_t>(options.method)};
+}
+
+std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count) {
+  switch (method) {
+    case Method::kQem: return qem_scratch_bytes(vertex_count, face_count);
+    case Method::kEdgeRemoval:
+    case Method::kHalfEdge:
+    case Method::kVertexDeletion: break;
+  }
+  return 0;
+}
+
+}  // namespace usuzumi::firmware

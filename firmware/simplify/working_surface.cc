@@ -1,0 +1,87 @@
+#include "firmware/simplify/working_surface.h"
+
+#include "firmware/simplify/weld.h"
+
+namespace usuzumi::firmware {
+namespace {
+
+// Coordinates are brought near this by a power of two, exactly, so that neither squared areas nor costs leave the range
+// of a single: twice an area squared reaches (2^12)^4, times a squared length (2^12)^2, below 2^128.
+constexpr float kWorkingExtent = 4096;
+
+void copy_positions(const WorkingMesh& mesh, WorkingSurface& out) {
+  Surface& surface = out.surface;
+  Vec3 low, high;
+  bool any = false;
+  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
+    if (surface.first_corner(v) == kNoCorner) continue;
+    const Vec3 p = mesh.positions[v];
+    if (!any) low = high = p;
+    any = true;
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
+  }
+  // Halves first: the difference of two finite singles may be infinite.
+  const Vec3 half = high * 0.5f - low * 0.5f;
+  float extent = half.x > half.y ? half.x : half.y;
+  extent = extent > half.z ? extent : half.z;
+  out.scale = 1;
+  if (extent > 0) {
+    while (extent * out.scale > kWorkingExtent) out.scale *= 0.5f;
+    while (extent * out.scale <= kWorkingExtent / 2 && out.scale < 0x1p100f) out.scale *= 2.0f;
+  }
+  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) surface.places[v] = {mesh.positions[v] * out.scale, 0};
+}
+
+template <class T>
+T* data_or_null(std::span<T> stream) {
+  return stream.empty() ? nullptr : stream.data();
+}
+
+}  // namespace
+
+void build_surface(WorkingMesh& mesh, const SurfaceMemory& memory, WorkingSurface& out) {
+  Surface& surface = out.surface;
+  surface.places = memory.places.data();
+  surface.vertices = memory.vertices.data();
+  surface.links = memory.links.data();
+  surface.indices = mesh.indices.data();
+  surface.vertex_count = mesh.vertex_count;
+  surface.face_count = mesh.face_count;
+  out.attributes = {data_or_null(mesh.normals), data_or_null(mesh.colours), data_or_null(mesh.texture_coordinates)};
+  out.seam_map = weld(mesh, memory.vertex_of_wedge, memory.weld_table) ? memory.vertex_of_wedge.data() : nullptr;
+  surface.vertex_of_wedge = out.seam_map;
+  out.live_faces = link_corners(surface);
+  copy_positions(mesh, out);
+}
+
+void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFu, kUsed = 0;
+  const Surface& surface = from.surface;
+  Place* wedges = surface.places;  // `mark` becomes each wedge's new number
+  for (std::uint32_t w = 0; w < mesh.vertex_count; ++w) wedges[w].mark = kUnused;
+  std::uint32_t faces = 0;
+  for (std::uint32_t face = 0; face < surface.face_count; ++face) {
+    if (surface.is_dead(face)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t wedge = mesh.indices[std::size_t{face} * 3 + k];
+      wedges[wedge].mark = kUsed;
+      mesh.indices[std::size_t{faces} * 3 + k] = wedge;
+    }
+    ++faces;
+  }
+  std::uint32_t used = 0;
+  for (std::uint32_t w = 0; w < mesh.vertex_count; ++w) {
+    if (wedges[w].mark == kUnused) continue;
+    mesh.positions[used] = wedges[from.seam_map == nullptr ? w : from.seam_map[w]].position * (1.0f / from.scale);
+    if (!mesh.normals.empty()) mesh.normals[used] = mesh.normals[w];
+    if (!mesh.colours.empty()) mesh.colours[used] = mesh.colours[w];
+    if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[used] = mesh.texture_coordinates[w];
+    wedges[w].mark = used++;
+  }
+  for (std::size_t i = 0; i < std::size_t{faces} * 3; ++i) mesh.indices[i] = wedges[mesh.indices[i]].mark;
+  mesh.vertex_count = used;
+  mesh.face_count = faces;
+}
+
+}  // namespace usuzumi::firmware
