@@ -102,6 +102,7 @@ struct Sections {
       case format::SectionType::kColours: return &colours;
       case format::SectionType::kNames: return &names;
       case format::SectionType::kBoard: return &board;
+      default: break;
     }
     return nullptr;
   }
@@ -205,8 +206,8 @@ Status check_descriptor(const Words& words, const Sections& sections, std::uint3
     return unsupported("mesh flags of a later release, in the mesh descriptor at byte offset", at);
   if (d.texture_coordinate_offset != kAbsent || d.material != kAbsent)
     return unsupported("textures need a later release, in the mesh descriptor at byte offset", at);
-  if (d.reserved[0] != 0 || d.reserved[1] != 0 || d.reserved[2] != 0)
-    return unsupported("reserved words are set, in the mesh descriptor at byte offset", at);
+  if (d.method_settings_offset != 0 || d.edge_value_offset != 0 || d.layer_offset != 0)
+    return unsupported("method settings and layers need a later release, in the mesh descriptor at byte offset", at);
   return ok_status();
 }
 

@@ -15,7 +15,8 @@ Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& optio
     case Method::kHalfEdge:
     case Method::kVertexDeletion: break;
   }
-  return Status{StatusCode::kUnsupported, "thinning method of a later release", static_cast<std::uint32_t>(options.method)};
+  return Status{StatusCode::kUnsupported, "thinning method of a later release",
+                static_cast<std::uint32_t>(options.method)};
 }
 
 std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count) {

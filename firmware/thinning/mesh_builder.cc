@@ -243,7 +243,8 @@ bool copy_collapsed(const MeshView& mesh, std::uint32_t faces, const Decision& d
   Arena arena(copy.free_memory());
   Unpacked u = unpack_mesh(mesh, faces, arena);
   if (!u.fits) return false;
-  const auto outcome = simplify(u.work, {.target_faces = decision.target_faces, .placement = decision.placement}, arena);
+  const auto outcome =
+      simplify(u.work, {.target_faces = decision.target_faces, .placement = decision.placement}, arena);
   if (!outcome.ok()) return false;
   report.outcome = outcome->stop == StopReason::kQuotaReached ? BuildOutcome::kBuilt : BuildOutcome::kQuotaNotReached;
   report.collapsed = true;
@@ -291,7 +292,8 @@ std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Dec
   const std::uint64_t vertices = mesh.positions.size();
   const std::uint64_t as_is = vertices * (sizeof(Vec3) + sizeof(PackedNormal) + sizeof(Rgba8)) + mesh.indices.size();
   if (decision.action != Action::kCollapse) return as_is;
-  return as_is + std::uint64_t{faces} * 12 + simplify_scratch_bytes(Method::kQem, static_cast<std::uint32_t>(vertices), faces);
+  return as_is + std::uint64_t{faces} * 12 +
+         simplify_scratch_bytes(Method::kQem, static_cast<std::uint32_t>(vertices), faces);
 }
 
 }  // namespace usuzumi::firmware

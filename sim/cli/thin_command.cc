@@ -178,7 +178,8 @@ int thin(const ThinOptions& options) {
   const auto faces_in = static_cast<std::uint32_t>(joined.indices.size() / 3);
   constexpr std::size_t kSlack = 256;  // alignment of each array
   HostArena host(joined.positions.size() * sizeof(Vec3) + joined.colours.size() * sizeof(Rgba8) +
-                 joined.indices.size() * 4 + firmware::simplify_scratch_bytes(firmware::Method::kQem, vertices_in, faces_in) + kSlack);
+                 joined.indices.size() * 4 +
+                 firmware::simplify_scratch_bytes(firmware::Method::kQem, vertices_in, faces_in) + kSlack);
   firmware::WorkingMesh mesh;
   mesh.positions = copied_into(host.arena, joined.positions);
   mesh.colours = copied_into(host.arena, joined.colours);
@@ -190,7 +191,8 @@ int thin(const ThinOptions& options) {
   const auto outcome = [&] {
     const Progress progress("thinning " + options.input.string());
     return firmware::simplify(
-        mesh, {.target_faces = target_of(quota, faces_in), .placement = placement_option(options.placement)}, host.arena);
+        mesh, {.target_faces = target_of(quota, faces_in), .placement = placement_option(options.placement)},
+        host.arena);
   }();
   const double thin_ms = stopwatch.elapsed_ms();
   if (!outcome.ok())

@@ -160,7 +160,9 @@ Bytes descriptor_bytes(std::span<const format::MeshDescriptor> meshes) {
     out.u32(d.name_bytes);
     out.u32(d.texture_coordinate_offset);
     out.u32(d.material);
-    for (std::uint32_t word : d.reserved) out.u32(word);
+    out.u32(d.method_settings_offset);
+    out.u32(d.edge_value_offset);
+    out.u32(d.layer_offset);
   }
   return out;
 }
