@@ -99,6 +99,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
   result.vertex = merge.keep;
 
   WedgePairs pairs;
+  const bool has_wedges = attributes.any() || vertex_of_wedge != nullptr;
   const Corner first_removed = surface.first_corner(merge.remove);
   for (Corner c = surface.first_corner(merge.keep), next; c != kNoCorner; c = next) {
     next = surface.next_corner_of(c);
@@ -109,7 +110,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
       continue;
     }
     const Corner at_remove = out_removed ? out : in;
-    if (attributes.any()) {
+    if (has_wedges) {
       const std::uint32_t kept = surface.indices[corner_index(c)];
       const std::uint32_t removed = surface.indices[corner_index(at_remove)];
       if (pairs.add(kept, removed)) attributes.mix(kept, removed, of_removed);
@@ -121,7 +122,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
     next = surface.next_corner_of(c);
     if (surface.is_dead(c >> 2)) continue;
     std::uint32_t& wedge = surface.indices[corner_index(c)];
-    if (!attributes.any()) {
+    if (!has_wedges) {
       wedge = merge.keep;
     } else {
       wedge = pairs.successor(wedge);

@@ -12,15 +12,23 @@ namespace usuzumi::firmware {
 
 class CollapseLog;
 
+/// One of several materials on one mesh: faces and vertices from the ends of the group before to these. Groups share no
+/// vertex; where two meet, positions repeat.
+struct MaterialGroup {
+  std::uint32_t face_end = 0;
+  std::uint32_t vertex_end = 0;
+};
+
 /// A triangle list in RAM that a method works on in place. Positions may repeat with different normals, colours or
 /// texture coordinates (a sharp border, a seam); methods weld them by exact position (-0 equals 0) and keep the
-/// attributes apart.
+/// attributes and the groups apart.
 struct WorkingMesh {
   std::span<Vec3> positions = {};                // vertex_count; finite
   std::span<PackedNormal> normals = {};          // vertex_count, or empty
   std::span<Rgba8> colours = {};                 // vertex_count, or empty
   std::span<TexCoord> texture_coordinates = {};  // vertex_count, finite, or empty
   std::span<const float> edge_values = {};       // vertex_count of the mesh as given, or empty; see EdgeRemovalSettings
+  std::span<MaterialGroup> groups = {};          // empty: one group; the last ends at the counts below
   std::span<std::uint32_t> indices = {};         // 3 per face, each < vertex_count (checked by the caller)
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;

@@ -20,6 +20,13 @@ std::uint32_t hash_position(Vec3 p) {
   return mixed(mixed(mixed(0x2545F491u, bits_of(p.x)), bits_of(p.y)), bits_of(p.z));
 }
 
+// Groups are few: as many as one mesh has materials.
+std::uint32_t group_of(std::span<const MaterialGroup> groups, std::uint32_t wedge) {
+  std::uint32_t g = 0;
+  while (g + 1 < groups.size() && wedge >= groups[g].vertex_end) ++g;
+  return g;
+}
+
 // Finds every entry's first equal. `hash` and `equal` see wedge numbers.
 template <class Hash, class Equal>
 bool find_first_equals(std::uint32_t count, std::span<std::uint32_t> table, std::span<std::uint32_t> first, Hash hash,
@@ -44,7 +51,9 @@ bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span
   const PackedNormal* normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
   const Rgba8* colours = mesh.colours.empty() ? nullptr : mesh.colours.data();
   const TexCoord* coordinates = mesh.texture_coordinates.empty() ? nullptr : mesh.texture_coordinates.data();
-  const bool has_attributes = normals != nullptr || colours != nullptr || coordinates != nullptr;
+  const std::span<const MaterialGroup> groups = mesh.groups;
+  const bool has_attributes =
+      normals != nullptr || colours != nullptr || coordinates != nullptr || groups.size() > 1;
   auto position_hash = [=](std::uint32_t w) { return hash_position(positions[w]); };
   auto same_position = [=](std::uint32_t a, std::uint32_t b) { return positions[a] == positions[b]; };
 
@@ -53,13 +62,15 @@ bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span
   if (has_attributes) {
     auto wedge_hash = [=](std::uint32_t w) {
       std::uint32_t hash = hash_position(positions[w]);
+      if (groups.size() > 1) hash = mixed(hash, group_of(groups, w));
       if (normals != nullptr) hash = mixed(hash, normals[w].bits);
       if (colours != nullptr) hash = mixed(hash, colours[w].bits);
       if (coordinates != nullptr) hash = mixed(mixed(hash, bits_of(coordinates[w].s)), bits_of(coordinates[w].t));
       return hash;
     };
     auto same_wedge = [=](std::uint32_t a, std::uint32_t b) {
-      return positions[a] == positions[b] && (normals == nullptr || normals[a] == normals[b]) &&
+      return positions[a] == positions[b] && (groups.size() < 2 || group_of(groups, a) == group_of(groups, b)) &&
+             (normals == nullptr || normals[a] == normals[b]) &&
              (colours == nullptr || colours[a] == colours[b]) &&
              (coordinates == nullptr || coordinates[a] == coordinates[b]);
     };

@@ -61,7 +61,10 @@ void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
   Place* wedges = surface.places;  // `mark` becomes each wedge's new number
   for (std::uint32_t w = 0; w < mesh.vertex_count; ++w) wedges[w].mark = kUnused;
   std::uint32_t faces = 0;
+  std::size_t group = 0;
   for (std::uint32_t face = 0; face < surface.face_count; ++face) {
+    for (; group < mesh.groups.size() && face == mesh.groups[group].face_end; ++group)
+      mesh.groups[group].face_end = faces;
     if (surface.is_dead(face)) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t wedge = mesh.indices[std::size_t{face} * 3 + k];
@@ -70,8 +73,12 @@ void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
     }
     ++faces;
   }
+  for (; group < mesh.groups.size(); ++group) mesh.groups[group].face_end = faces;
+  group = 0;
   std::uint32_t used = 0;
   for (std::uint32_t w = 0; w < mesh.vertex_count; ++w) {
+    for (; group < mesh.groups.size() && w == mesh.groups[group].vertex_end; ++group)
+      mesh.groups[group].vertex_end = used;
     if (wedges[w].mark == kUnused) continue;
     mesh.positions[used] = wedges[from.seam_map == nullptr ? w : from.seam_map[w]].position * (1.0f / from.scale);
     if (!mesh.normals.empty()) mesh.normals[used] = mesh.normals[w];
@@ -79,6 +86,7 @@ void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
     if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[used] = mesh.texture_coordinates[w];
     wedges[w].mark = used++;
   }
+  for (; group < mesh.groups.size(); ++group) mesh.groups[group].vertex_end = used;
   for (std::size_t i = 0; i < std::size_t{faces} * 3; ++i) mesh.indices[i] = wedges[mesh.indices[i]].mark;
   mesh.vertex_count = used;
   mesh.face_count = faces;
