@@ -49,6 +49,7 @@ enum class SectionType : std::uint32_t {  // four letters, first in the low byte
   kMethods = 0x4854454D,                  // "METH": settings of thinning methods
   kEdgeValues = 0x56474445,               // "EDGV": f32 per vertex
   kLayers = 0x5259414C,                   // "LAYR": chains of layers
+  kGroups = 0x50555247,                   // "GRUP": materials of meshes that have several
   // Kept for later versions: "SOLD" solids.
 };
 
@@ -68,6 +69,7 @@ enum class Method : std::uint32_t { kQem = 0, kEdgeRemoval = 1, kHalfEdge = 2, k
 
 inline constexpr std::uint32_t kFlagTelltale = 1;  // never dropped, whatever memory or policy say
 inline constexpr std::uint32_t kFlagTwoSided = 2;  // drawn without culling
+inline constexpr std::uint32_t kFlagGroups = 4;    // several materials, see MeshDescriptor::material; since 1.1
 
 struct MeshDescriptor {            // 80 bytes
   std::uint32_t record_offset = 0; // of the record's vertex-count word, from the file's start
@@ -86,7 +88,8 @@ struct MeshDescriptor {            // 80 bytes
   std::uint32_t name_offset = kAbsent;    // into section NAME, from the file's start; UTF-8, no terminator
   std::uint32_t name_bytes = 0;
   std::uint32_t texture_coordinate_offset = kAbsent;  // TexCoord per vertex
-  std::uint32_t material = kAbsent;                   // number in section MATL
+  // Number in section MATL; with kFlagGroups, offset in section GRUP of the number of groups and the FaceGroups.
+  std::uint32_t material = kAbsent;
   // Since 1.1; 0 where absent, as it stands in files of 1.0.
   std::uint32_t method_settings_offset = 0;  // the 40 bytes of the method's settings (simplify.h), in section METH
   std::uint32_t edge_value_offset = 0;       // f32 per vertex, in section EDGV; see EdgeRemovalSettings in simplify.h
@@ -107,6 +110,16 @@ struct Material {                          // 32 bytes; the base colour is the m
   std::uint32_t reserved[2] = {};          // must be 0
 };
 static_assert(sizeof(Material) == 32);
+
+/// One of several materials on one kIndexed mesh: faces and vertices from the ends of the group before to these. Groups
+/// share no vertex; the last ends at the mesh's counts.
+struct FaceGroup {                         // 16 bytes
+  std::uint32_t face_end = 0;
+  std::uint32_t vertex_end = 0;
+  std::uint32_t material = kAbsent;        // number in section MATL
+  std::uint32_t base_colour = 0xFFFFFFFF;  // Rgba8, in place of the descriptor's
+};
+static_assert(sizeof(FaceGroup) == 16);
 
 struct Texture {                           // 32 bytes; read as command::SetTexture says
   std::uint32_t texel_offset = 0;          // from the file's start, in section TXEL; a multiple of 4

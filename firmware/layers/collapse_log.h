@@ -3,8 +3,8 @@
 // A method that is given a log (SimplifyOptions::log) tells it, for each collapse or deletion,
 //     begin_step(); change(...)*; succeed(...)*; remove_face(...)*; end_step();
 // in the numbers of the mesh AS GIVEN: corner 3 * face + k, and store vertices. A store vertex is an entry of the
-// vertex arrays as given, or one that the method made and handed to add_vertex(): methods that move a vertex add one for
-// each wedge of the vertex that stays, methods that do not add none. Corners begin at the vertices that the given
+// vertex arrays as given, or one that the method made and handed to add_vertex(): methods that move a vertex add one
+// for each wedge of the vertex that stays, methods that do not add none. Corners begin at the vertices that the given
 // indices name; a wedge that welding (weld.h) made another's equal is told of under the number it was welded to.
 #pragma once
 

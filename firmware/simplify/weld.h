@@ -16,8 +16,8 @@ constexpr std::uint64_t weld_table_slots(std::uint32_t vertex_count) {
   return slots;
 }
 
-/// Points the indices of wedges that are equal in everything (-0 equals 0), group included, at the first of them, and sets
-/// vertex_of_wedge[w] to the first wedge at w's position. True when some vertex keeps more than one wedge.
+/// Points the indices of wedges that are equal in everything (-0 equals 0), group included, at the first of them, and
+/// sets vertex_of_wedge[w] to the first wedge at w's position. True when some vertex keeps more than one wedge.
 /// `table` has weld_table_slots() entries; `vertex_of_wedge` vertex_count.
 bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span<std::uint32_t> table);
 
