@@ -19,9 +19,10 @@ Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& optio
                 static_cast<std::uint32_t>(options.method)};
 }
 
-std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count) {
+std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count,
+                                     bool has_texture_coordinates) {
   switch (method) {
-    case Method::kQem: return qem_scratch_bytes(vertex_count, face_count);
+    case Method::kQem: return qem_scratch_bytes(vertex_count, face_count, has_texture_coordinates);
     case Method::kEdgeRemoval:
     case Method::kHalfEdge:
     case Method::kVertexDeletion: break;

@@ -121,7 +121,9 @@ struct SimplifyOutcome {
 /// `scratch` is left as it was found.
 Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
 
-/// Bytes of scratch that simplify() needs for a mesh of these counts. May be more than the device can address.
-std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count);
+/// Bytes of scratch that simplify() needs for a mesh of these counts, with texture coordinates or without. May be more
+/// than the device can address.
+std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, std::uint32_t face_count,
+                                     bool has_texture_coordinates);
 
 }  // namespace usuzumi::firmware

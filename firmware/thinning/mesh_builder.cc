@@ -293,7 +293,7 @@ std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Dec
   const std::uint64_t as_is = vertices * (sizeof(Vec3) + sizeof(PackedNormal) + sizeof(Rgba8)) + mesh.indices.size();
   if (decision.action != Action::kCollapse) return as_is;
   return as_is + std::uint64_t{faces} * 12 +
-         simplify_scratch_bytes(Method::kQem, static_cast<std::uint32_t>(vertices), faces);
+         simplify_scratch_bytes(Method::kQem, static_cast<std::uint32_t>(vertices), faces, false);
 }
 
 }  // namespace usuzumi::firmware

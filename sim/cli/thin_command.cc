@@ -179,7 +179,7 @@ int thin(const ThinOptions& options) {
   constexpr std::size_t kSlack = 256;  // alignment of each array
   HostArena host(joined.positions.size() * sizeof(Vec3) + joined.colours.size() * sizeof(Rgba8) +
                  joined.indices.size() * 4 +
-                 firmware::simplify_scratch_bytes(firmware::Method::kQem, vertices_in, faces_in) + kSlack);
+                 firmware::simplify_scratch_bytes(firmware::Method::kQem, vertices_in, faces_in, false) + kSlack);
   firmware::WorkingMesh mesh;
   mesh.positions = copied_into(host.arena, joined.positions);
   mesh.colours = copied_into(host.arena, joined.colours);

@@ -43,13 +43,13 @@ constexpr std::uint64_t links_and_keys_bytes(std::uint32_t vertex_count, std::ui
 
 }  // namespace
 
-std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
+std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count, bool) {
   return kAlignment + aligned(std::uint64_t{vertex_count} * 4) + aligned(std::uint64_t{vertex_count} * sizeof(Place)) +
          aligned(std::uint64_t{vertex_count} * sizeof(Vertex)) + links_and_keys_bytes(vertex_count, face_count);
 }
 
 bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count, QemScratch& scratch) {
-  const std::uint64_t bytes = qem_scratch_bytes(vertex_count, face_count) - kAlignment;
+  const std::uint64_t bytes = qem_scratch_bytes(vertex_count, face_count, false) - kAlignment;
   if (bytes > arena.available()) return false;
   const std::span<std::byte> memory = arena.allocate<std::byte>(static_cast<std::size_t>(bytes), kAlignment);
   if (memory.data() == nullptr) return false;

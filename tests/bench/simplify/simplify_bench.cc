@@ -40,7 +40,7 @@ void run_ours(const Mesh& input, std::size_t target_faces, std::vector<std::byte
   const auto vertices = static_cast<std::uint32_t>(input.positions.size());
   const auto faces = static_cast<std::uint32_t>(input.face_count());
   run.mesh = input;
-  memory.resize(firmware::qem_scratch_bytes(vertices, faces));
+  memory.resize(firmware::qem_scratch_bytes(vertices, faces, false));
   Arena scratch(memory);
   firmware::WorkingMesh working{.positions = run.mesh.positions,
                                 .colours = run.mesh.colours,

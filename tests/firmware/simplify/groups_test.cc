@@ -53,7 +53,7 @@ Counts thin_to(TwoMaterials& mesh, std::uint32_t faces, firmware::Method method)
                                 .indices = mesh.indices,
                                 .vertex_count = vertices_in,
                                 .face_count = faces_in};
-  std::vector<std::byte> memory(firmware::simplify_scratch_bytes(method, vertices_in, faces_in));
+  std::vector<std::byte> memory(firmware::simplify_scratch_bytes(method, vertices_in, faces_in, false));
   Arena scratch(memory);
   EXPECT_TRUE(firmware::simplify(working, {.target_faces = faces, .method = method}, scratch).ok());
   return {working.face_count, working.vertex_count};

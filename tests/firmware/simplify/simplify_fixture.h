@@ -24,7 +24,9 @@ inline Thinned thin(const Mesh& mesh, const firmware::SimplifyOptions& options, 
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   const auto faces = static_cast<std::uint32_t>(mesh.face_count());
   std::vector<std::byte> memory(
-      scratch_bytes != 0 ? scratch_bytes : firmware::simplify_scratch_bytes(options.method, vertices, faces));
+      scratch_bytes != 0 ? scratch_bytes
+                         : firmware::simplify_scratch_bytes(options.method, vertices, faces,
+                                                            !mesh.texture_coordinates.empty()));
   Arena scratch(memory);
   firmware::WorkingMesh working{.positions = result.mesh.positions,
                                 .normals = result.mesh.normals,

@@ -100,7 +100,7 @@ TEST(QemRobustness, TooLittleScratchLeavesTheMeshAsItWas) {
   const Mesh mesh = with_flat_normals(icosphere(1));
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   const auto faces = static_cast<std::uint32_t>(mesh.face_count());
-  const std::size_t need = firmware::qem_scratch_bytes(vertices, faces);
+  const std::size_t need = firmware::qem_scratch_bytes(vertices, faces, false);
   // The last 16 bytes are room for the alignment of the arena's start.
   for (std::size_t bytes = 1; bytes + 16 < need; bytes += bytes < 64 || bytes + 80 > need ? 1 : 37) {
     const Thinned thinned = thin(mesh, 20, Placement::kOptimal, bytes);
@@ -117,7 +117,7 @@ TEST(QemRobustness, ScratchIsGivenBackAndItsSizeIsWhatWasSaid) {
   const Mesh mesh = icosphere(3);
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   const auto faces = static_cast<std::uint32_t>(mesh.face_count());
-  const std::size_t need = firmware::qem_scratch_bytes(vertices, faces);
+  const std::size_t need = firmware::qem_scratch_bytes(vertices, faces, false);
   EXPECT_LE(need, 128u * vertices) << "the bar; sizes of small arrays round up";
   for (const std::size_t misalignment : {0u, 1u, 7u, 15u}) {
     Mesh copy = mesh;
@@ -158,7 +158,7 @@ TEST(QemRobustness, WhatTheScratchHeldBeforeDoesNotMatter) {
   const Thinned expected = thin(mesh, 150);
   for (const unsigned fill : {0x00u, 0x3Fu, 0xA5u, 0xFFu}) {
     Mesh copy = mesh;
-    std::vector<std::byte> memory(firmware::qem_scratch_bytes(vertices, faces), static_cast<std::byte>(fill));
+    std::vector<std::byte> memory(firmware::qem_scratch_bytes(vertices, faces, false), static_cast<std::byte>(fill));
     Arena scratch(memory);
     firmware::WorkingMesh working{.positions = copy.positions, .indices = copy.indices, .vertex_count = vertices,
                                   .face_count = faces};
