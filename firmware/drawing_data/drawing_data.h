@@ -5,52 +5,16 @@
 #include <span>
 #include <string_view>
 
-#include "firmware/drawing_data/format.h"
+#include "firmware/drawing_data/mesh_view.h"
 #include "hal/status.h"
-#include "hal/vec.h"
 
 namespace usuzumi::firmware {
-
-/// Thinning level as stored; unset is treated as keep ([0022]).
-enum class Level : std::uint32_t { kUnset = 0, kKeep = 1, kDelete = 2, kCollapse = 3, kPoint = 4, kLine = 5 };
-inline constexpr std::uint32_t kLevelCount = 6;
-
-/// One mesh as it lies in ROM. Spans point into the ROM; every index was checked.
-struct MeshView {
-  std::uint32_t number = 0;  // from 0; the patent counts from 1
-  Level level = Level::kUnset;
-  format::Topology topology = format::Topology::kStrip;
-  std::span<const Vec3> positions;
-  std::span<const PackedNormal> normals;   // empty or as many as positions
-  std::span<const Rgba8> colours;          // empty or as many as positions
-  std::span<const std::byte> indices;      // kIndexed: index_count * index_bytes
-  std::uint32_t index_bytes = 0;
-  std::uint32_t index_count = 0;
-  Rgba8 base_colour{};
-  format::QuotaKind quota_kind = format::QuotaKind::kNone;
-  std::uint32_t quota = 0;
-  float area_threshold_px = -1;
-  std::uint32_t flags = 0;
-  std::string_view name;                   // empty in bare data
-
-  bool telltale() const { return (flags & format::kFlagTelltale) != 0; }
-  bool two_sided() const { return (flags & format::kFlagTwoSided) != 0; }
-  /// Faces as the topology counts them, the joins between the runs of a strip included.
-  std::uint32_t face_count() const;
-  /// Vertex numbers of face f < face_count(), wound as drawn: odd faces of a strip have their first two swapped.
-  void face(std::uint32_t f, std::uint32_t out[3]) const;
-  /// The same; false where two corners stand at one place. A join repeats a place, not a vertex number, in data without
-  /// indices; such a face draws nothing, and whoever thins or counts faces leaves it out.
-  bool proper_face(std::uint32_t f, std::uint32_t out[3]) const;
-  /// Faces with their corners at three places. Looks at every face.
-  std::uint32_t proper_face_count() const;
-};
 
 class DrawingData {
  public:
   DrawingData() = default;
-  /// Checks all of `rom` (4-byte aligned): sizes, offsets, CRC-32, levels, indices, coordinates. Bare data is what
-  /// does not begin with the container's magic and fills `rom` exactly.
+  /// Checks all of `rom` (4-byte aligned): sizes, offsets, CRC-32, levels, indices, coordinates, textures. Bare data is
+  /// what does not begin with the container's magic and fills `rom` exactly.
   /// kDataLoss or kUnsupported with the byte offset in `where`.
   static Result<DrawingData> open(std::span<const std::byte> rom);
 
@@ -68,17 +32,28 @@ class DrawingData {
     std::uint32_t record = first_record_;
     for (std::uint32_t n = 0; n < mesh_max_; ++n, record = next_record(record)) visit(mesh_at(n, record));
   }
+  /// 0 in bare data, as material_count() is.
+  std::uint32_t texture_count() const { return texture_count_; }
+  TextureView texture(std::uint32_t n) const;    // n < texture_count()
+  std::uint32_t material_count() const { return material_count_; }
+  MaterialView material(std::uint32_t n) const;  // n < material_count(), or kAbsent: the default
+  /// Groups of all meshes, a mesh of one material counted as one: what a frame draws at most.
+  std::uint32_t group_count() const;
   std::span<const std::byte> bytes() const { return rom_; }
   /// The board it was packed for; empty where it is for any, as bare data always are.
   std::string_view board() const { return board_; }
 
  private:
+  std::string_view text(std::uint32_t offset, std::uint32_t bytes) const;
+
   std::span<const std::byte> rom_;
   std::string_view board_;
   bool bare_ = true;
   std::uint32_t mesh_max_ = 0;
   std::uint32_t first_record_ = 4;
   std::uint32_t descriptors_offset_ = 0;
+  std::uint32_t materials_offset_ = 0, material_count_ = 0;
+  std::uint32_t textures_offset_ = 0, texture_count_ = 0;
 };
 
 }  // namespace usuzumi::firmware

@@ -20,6 +20,11 @@ inline constexpr std::uint32_t kMaxMeshes = 65535;
 /// twice this, reaches 2e34: finite in single precision, with room for sums of many faces and for the camera's
 /// matrices.
 inline constexpr float kMaxCoordinate = 1e8f;
+/// Largest magnitude of a texture coordinate: how often an image may repeat across a mesh. Times kMaxTextureSize it is
+/// below 2^26, so that the number of a texel fits 32 bits with room for fractions; a single tells 1024 places of an
+/// image apart there.
+inline constexpr float kMaxTextureCoordinate = 1e4f;
+inline constexpr std::uint32_t kMaxTextureSize = 4096;   // texels each way
 
 struct Header {                    // 32 bytes at offset 0
   std::uint32_t magic = kMagic;
