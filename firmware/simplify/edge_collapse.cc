@@ -3,27 +3,6 @@
 namespace usuzumi::firmware {
 namespace {
 
-// Wedges of the two ends that meet in a removed face become one. Where faces disagree about the partner, the first face
-// decides, and the wedge left over only moves.
-struct WedgePairs {
-  std::uint32_t count = 0;
-  std::uint32_t kept[kMostFacesOnEdge];
-  std::uint32_t removed[kMostFacesOnEdge];
-
-  bool add(std::uint32_t keep, std::uint32_t remove) {
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (kept[i] == keep || removed[i] == remove) return false;
-    kept[count] = keep;
-    removed[count++] = remove;
-    return true;
-  }
-  std::uint32_t successor(std::uint32_t wedge) const {
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (removed[i] == wedge) return kept[i];
-    return wedge;
-  }
-};
-
 struct Merge {
   Surface& surface;
   const Neighbourhood& n;
@@ -98,7 +77,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
   CollapsedEdge result;
   result.vertex = merge.keep;
 
-  WedgePairs pairs;
+  WedgePairs& pairs = result.pairs;
   const bool has_wedges = attributes.any() || vertex_of_wedge != nullptr;
   const Corner first_removed = surface.first_corner(merge.remove);
   for (Corner c = surface.first_corner(merge.keep), next; c != kNoCorner; c = next) {
@@ -110,13 +89,11 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
       continue;
     }
     const Corner at_remove = out_removed ? out : in;
-    if (has_wedges) {
-      const std::uint32_t kept = surface.indices[corner_index(c)];
-      const std::uint32_t removed = surface.indices[corner_index(at_remove)];
-      if (pairs.add(kept, removed)) attributes.mix(kept, removed, of_removed);
-    }
+    const std::uint32_t kept = surface.indices[corner_index(c)];
+    const std::uint32_t removed = surface.indices[corner_index(at_remove)];
+    if (pairs.add(kept, removed) && attributes.any()) attributes.mix(kept, removed, of_removed);
     merge.remove_face(c, at_remove, out_removed ? in : out);
-    ++result.faces_removed;
+    result.removed[result.faces_removed++] = {c >> 2, kept, removed};
   }
   for (Corner c = first_removed, next; c != kNoCorner; c = next) {
     next = surface.next_corner_of(c);
@@ -128,6 +105,7 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
       wedge = pairs.successor(wedge);
       if (vertex_of_wedge != nullptr) vertex_of_wedge[wedge] = merge.keep;
     }
+    if (result.first_from_removed == kNoCorner) result.first_from_removed = c;
     merge.append(c);
   }
   merge.append(kNoCorner);
