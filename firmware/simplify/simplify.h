@@ -32,6 +32,9 @@ struct WorkingMesh {
   std::span<std::uint32_t> indices = {};         // 3 per face, each < vertex_count (checked by the caller)
   std::uint32_t vertex_count = 0;
   std::uint32_t face_count = 0;
+  /// vertex_count, or empty. Filled in by simplify(): which entry of the mesh as given each vertex that is left was. Of
+  /// methods that make no vertex (keeps_vertices()) it is that entry still, unchanged.
+  std::span<std::uint32_t> source_vertices = {};
 };
 
 /// The author's choice per mesh. The numbers are those of drawing data.
@@ -42,6 +45,8 @@ enum class Method : std::uint8_t {
   kVertexDeletion = 3,  // vertex deletion by least energy (Sato, Kitazawa, Onozawa)
 };
 inline constexpr std::uint32_t kMethodCount = 4;
+/// Whether every vertex of a thinned mesh is one of the mesh as given, in position and attributes.
+constexpr bool keeps_vertices(Method method) { return method == Method::kHalfEdge || method == Method::kVertexDeletion; }
 
 enum class Placement : std::uint8_t {
   kOptimal,  // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most);

@@ -84,6 +84,7 @@ void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
     if (!mesh.normals.empty()) mesh.normals[used] = mesh.normals[w];
     if (!mesh.colours.empty()) mesh.colours[used] = mesh.colours[w];
     if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[used] = mesh.texture_coordinates[w];
+    if (!mesh.source_vertices.empty()) mesh.source_vertices[used] = w;
     wedges[w].mark = used++;
   }
   for (; group < mesh.groups.size(); ++group) mesh.groups[group].vertex_end = used;
