@@ -8,6 +8,12 @@ std::uint32_t mix_channel(std::uint32_t a, std::uint32_t b, float t) {
   return static_cast<std::uint32_t>(fa + (fb - fa) * t + 0.5f);  // t in [0, 1] keeps it within 0..255
 }
 
+float mix_coordinate(float a, float b, float t) {
+  const float mixed = a + (b - a) * t;
+  // The difference of two finite singles may be infinite.
+  return mixed - mixed == 0 ? mixed : a * (1.0f - t) + b * t;
+}
+
 }  // namespace
 
 AttributeShares shares_at(float t, float weight_of_first, float weight_of_second) {
@@ -31,7 +37,7 @@ void WedgeAttributes::mix(std::uint32_t to, std::uint32_t from, AttributeShares 
   if (texture_coordinates != nullptr) {
     TexCoord& a = texture_coordinates[to];
     const TexCoord b = texture_coordinates[from];
-    a = {a.s + (b.s - a.s) * shares.colour, a.t + (b.t - a.t) * shares.colour};
+    a = {mix_coordinate(a.s, b.s, shares.colour), mix_coordinate(a.t, b.t, shares.colour)};
   }
 }
 

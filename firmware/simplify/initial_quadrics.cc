@@ -9,6 +9,7 @@ namespace {
 // length. Chosen by measuring (tests/bench/simplify).
 constexpr float kBorderWeight = 2.0f;
 constexpr float kAttributeBorderWeight = 0.5f;
+constexpr float kTextureSeamWeight = 8.0f;  // beyond a seam lie texels of another place
 
 // In Place::mark while a vertex looks at its edges to higher vertices: the number of faces still to be met on the edge
 // (bits 0-26); faces run along it from here, and to here; its representative is chosen. Then the count alone says which
@@ -55,8 +56,8 @@ Corner half_edge_towards(const Surface& s, Corner c, std::uint32_t other) {
   return s.vertex_at(next_in_face(c)) == other ? c : previous_in_face(c);
 }
 
-// True where the edge's two faces disagree about the normal or colour at one of its ends.
-bool is_attribute_border(const Surface& s, Corner one, Corner other) {
+// The weight of the constraint planes on an edge of two faces: 0 where they agree about the attributes at its ends.
+float border_weight(const Surface& s, const std::uint32_t* texture_places, Corner one, Corner other) {
   const std::uint32_t a0 = s.indices[corner_index(one)];
   const std::uint32_t b0 = s.indices[corner_index(next_in_face(one))];
   std::uint32_t a1 = s.indices[corner_index(other)];
@@ -66,23 +67,29 @@ bool is_attribute_border(const Surface& s, Corner one, Corner other) {
     a1 = b1;
     b1 = swap;
   }
-  return a0 != a1 || b0 != b1;
+  if (a0 == a1 && b0 == b1) return 0;
+  const bool is_seam = texture_places != nullptr &&
+                       (texture_places[a0] != texture_places[a1] || texture_places[b0] != texture_places[b1]);
+  return is_seam ? kTextureSeamWeight : kAttributeBorderWeight;
 }
 
 // The other half-edge of a two-faced edge whose one is `c`, seen from `v`'s corners after `from`.
-void add_attribute_border(Surface& s, Corner one, Corner from, std::uint32_t other_end) {
+void add_attribute_border(Surface& s, const std::uint32_t* texture_places, Corner one, Corner from,
+                          std::uint32_t other_end) {
   for (Corner c = s.next_corner_of(from); c != kNoCorner; c = s.next_corner_of(c)) {
     if (s.vertex_at(next_in_face(c)) != other_end && s.vertex_at(previous_in_face(c)) != other_end) continue;
     const Corner other = half_edge_towards(s, c, other_end);
-    if (!is_attribute_border(s, one, other)) return;
-    add_constraint_plane(s, one, kAttributeBorderWeight);
-    add_constraint_plane(s, other, kAttributeBorderWeight);
+    const float weight = border_weight(s, texture_places, one, other);
+    if (weight == 0) return;
+    add_constraint_plane(s, one, weight);
+    add_constraint_plane(s, other, weight);
     return;
   }
 }
 
 // One edge as met at corner `c` of its lower end `v`.
-void meet_edge(Surface& s, std::uint32_t v, Corner c, Corner half_edge, std::uint32_t other_end) {
+void meet_edge(Surface& s, const std::uint32_t* texture_places, std::uint32_t v, Corner c, Corner half_edge,
+               std::uint32_t other_end) {
   std::uint32_t& mark = s.places[other_end].mark;
   if ((mark & kChosen) == 0) {
     const bool two_faces = (mark & kCountMask) == 2;
@@ -93,14 +100,14 @@ void meet_edge(Surface& s, std::uint32_t v, Corner c, Corner half_edge, std::uin
     mark &= ~(kRunsOut | kRunsIn);
     mark |= kChosen | (two_faces ? kTwoFaces : 0);
     s.links[half_edge] |= kRepresentative;
-    if (two_faces && s.vertex_of_wedge != nullptr) add_attribute_border(s, half_edge, c, other_end);
+    if (two_faces && s.vertex_of_wedge != nullptr) add_attribute_border(s, texture_places, half_edge, c, other_end);
   }
   if ((mark & kTwoFaces) == 0) add_constraint_plane(s, half_edge, kBorderWeight);
   --mark;
   if ((mark & kCountMask) == 0) mark &= kPlaceFlags;
 }
 
-void choose_representatives(Surface& s) {
+void choose_representatives(Surface& s, const std::uint32_t* texture_places) {
   for (std::uint32_t v = 0; v < s.vertex_count; ++v) {
     for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
       const std::uint32_t out = s.vertex_at(next_in_face(c));
@@ -111,17 +118,17 @@ void choose_representatives(Surface& s) {
     for (Corner c = s.first_corner(v); c != kNoCorner; c = s.next_corner_of(c)) {
       const std::uint32_t out = s.vertex_at(next_in_face(c));
       const std::uint32_t in = s.vertex_at(previous_in_face(c));
-      if (out > v) meet_edge(s, v, c, c, out);
-      if (in > v) meet_edge(s, v, c, previous_in_face(c), in);
+      if (out > v) meet_edge(s, texture_places, v, c, c, out);
+      if (in > v) meet_edge(s, texture_places, v, c, previous_in_face(c), in);
     }
   }
 }
 
 }  // namespace
 
-void set_initial_quadrics(Surface& surface) {
+void set_initial_quadrics(Surface& surface, const std::uint32_t* texture_places) {
   add_face_planes(surface);
-  choose_representatives(surface);
+  choose_representatives(surface, texture_places);
 }
 
 }  // namespace usuzumi::firmware

@@ -115,8 +115,9 @@ struct SimplifyWork {  // for the machine's cost model
 
 struct SimplifyOutcome {
   StopReason stop = StopReason::kQuotaReached;
-  float max_error = 0;  // model units. QEM, half-edge: largest root of (cost / summed quadric area); edge removal,
-                        // vertex deletion: largest distance that a vertex was moved, or lay from the new faces
+  float max_error = 0;  // model units. QEM, half-edge: largest root of (cost / summed quadric area), by QEM the shift
+                        // of a texture counted in; edge removal, vertex deletion: largest distance that a vertex was
+                        // moved, or lay from the new faces
   SimplifyWork work;
 };
 

@@ -87,4 +87,19 @@ bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span
   return false;
 }
 
+void find_texture_places(const WorkingMesh& mesh, std::span<std::uint32_t> first, std::span<std::uint32_t> table) {
+  const Vec3* positions = mesh.positions.data();
+  const TexCoord* coordinates = mesh.texture_coordinates.data();
+  const std::span<const MaterialGroup> groups = mesh.groups;
+  auto hash = [=](std::uint32_t w) {
+    const std::uint32_t of_position = hash_position(positions[w]);
+    return mixed(mixed(of_position, bits_of(coordinates[w].s)), bits_of(coordinates[w].t));
+  };
+  auto same = [=](std::uint32_t a, std::uint32_t b) {
+    return positions[a] == positions[b] && coordinates[a] == coordinates[b] &&
+           (groups.size() < 2 || group_of(groups, a) == group_of(groups, b));
+  };
+  find_first_equals(mesh.vertex_count, table, first, hash, same);
+}
+
 }  // namespace usuzumi::firmware

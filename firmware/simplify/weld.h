@@ -21,4 +21,8 @@ constexpr std::uint64_t weld_table_slots(std::uint32_t vertex_count) {
 /// `table` has weld_table_slots() entries; `vertex_of_wedge` vertex_count.
 bool weld(WorkingMesh& mesh, std::span<std::uint32_t> vertex_of_wedge, std::span<std::uint32_t> table);
 
+/// Sets first[w] to the first vertex of the same position, texture coordinate and group as w: what is one place of one
+/// texture, whatever the normals and colours there. `table` as for weld().
+void find_texture_places(const WorkingMesh& mesh, std::span<std::uint32_t> first, std::span<std::uint32_t> table);
+
 }  // namespace usuzumi::firmware

@@ -51,6 +51,7 @@ void build_surface(WorkingMesh& mesh, const SurfaceMemory& memory, WorkingSurfac
   out.attributes = {data_or_null(mesh.normals), data_or_null(mesh.colours), data_or_null(mesh.texture_coordinates)};
   out.seam_map = weld(mesh, memory.vertex_of_wedge, memory.weld_table) ? memory.vertex_of_wedge.data() : nullptr;
   surface.vertex_of_wedge = out.seam_map;
+  if (!memory.texture_places.empty()) find_texture_places(mesh, memory.texture_places, memory.weld_table);
   out.live_faces = link_corners(surface);
   copy_positions(mesh, out);
 }

@@ -17,6 +17,7 @@ struct SurfaceMemory {
   std::span<Place> places;
   std::span<Vertex> vertices;
   std::span<std::uint32_t> links;       // 4 per face
+  std::span<std::uint32_t> texture_places = {};  // see find_texture_places() (weld.h); empty where nobody asks
 };
 
 struct WorkingSurface {

@@ -12,7 +12,6 @@ namespace {
 // refuse most such places anyway.
 constexpr float kFarthestMinimumSquared = 4.0f;
 
-QuadricOf<float> lanes_of(const Quadric& q) { return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c}; }
 Quadric quadric_of(const QuadricOf<float>& q) {
   return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c};
 }
@@ -67,13 +66,8 @@ template <class Get>
           gather([&](int i) { return q[i]->c; })};
 }
 
-}  // namespace
-
-EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement) {
-  const Vec3 edge = surface.position(b) - surface.position(a);
+[[gnu::always_inline]] inline EdgeCost cost_of(EdgeMinimum<float>& m, Vec3 edge, Placement placement) {
   const Vec3Of<float> e = {edge.x, edge.y, edge.z};
-  EdgeMinimum<float> m;
-  sum_quadrics(lanes_of(surface.vertices[a].quadric), lanes_of(surface.vertices[b].quadric), e, m.sum);
   EdgeCost result;
   result.quadric = quadric_of(m.sum);
   if (placement == Placement::kMidpoint) {
@@ -90,6 +84,22 @@ EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Pla
     use_best_of_ends_and_middle(result, edge);
   }
   return result;
+}
+
+}  // namespace
+
+EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement) {
+  const Vec3 edge = surface.position(b) - surface.position(a);
+  EdgeMinimum<float> m;
+  sum_quadrics(lanes_of(surface.vertices[a].quadric), lanes_of(surface.vertices[b].quadric),
+               Vec3Of<float>{edge.x, edge.y, edge.z}, m.sum);
+  return cost_of(m, edge, placement);
+}
+
+EdgeCost cost_of_sum(const QuadricOf<float>& sum, Vec3 edge, Placement placement) {
+  EdgeMinimum<float> m;
+  m.sum = sum;
+  return cost_of(m, edge, placement);
 }
 
 Vec3 refined_offset(const EdgeCost& cost) {

@@ -25,6 +25,13 @@ inline float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 /// middle on a tie.
 EdgeCost cost_edge(const Surface& surface, std::uint32_t a, std::uint32_t b, Placement placement);
 
+/// What cost_edge() makes of the sum of both ends' quadrics; `edge` is from the first end to the second.
+EdgeCost cost_of_sum(const QuadricOf<float>& sum, Vec3 edge, Placement placement);
+
+inline QuadricOf<float> lanes_of(const Quadric& q) {
+  return {q.xx, q.xy, q.xz, q.yy, q.yz, q.zz, {q.b.x, q.b.y, q.b.z}, q.c};
+}
+
 /// Solving once more, with the pull towards the first solution, takes the pull out again where the quadric does have a
 /// minimum (iterated Tikhonov regularisation): a cube's corners stay. The cost is that of the first solution, which is
 /// a little higher; most edges are costed more often than collapsed, and never get here.

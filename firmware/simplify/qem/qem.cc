@@ -13,12 +13,13 @@
 
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/collapse_rules.h"
-#include "firmware/simplify/qem/edge_candidates.h"
 #include "firmware/simplify/edge_collapse.h"
+#include "firmware/simplify/initial_quadrics.h"
+#include "firmware/simplify/qem/edge_candidates.h"
 #include "firmware/simplify/qem/edge_cost.h"
 #include "firmware/simplify/qem/edge_queue.h"
-#include "firmware/simplify/initial_quadrics.h"
 #include "firmware/simplify/qem/qem_scratch.h"
+#include "firmware/simplify/qem/texture_error.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/working_surface.h"
 
@@ -54,7 +55,8 @@ class QemSimplifier {
     build_surface(mesh_, memory_, working_);
     faces_ = working_.live_faces;
     if (faces_ > options_.target_faces) {
-      set_initial_quadrics(surface_);
+      set_initial_quadrics(surface_, memory_.texture_places.empty() ? nullptr : memory_.texture_places.data());
+      texture_.set_up(surface_, working_.attributes.texture_coordinates, memory_.texture_places, texture_fits_);
       collapse_to_target();
       outcome_.max_error *= 1.0f / working_.scale;
     }
@@ -81,6 +83,7 @@ class QemSimplifier {
 
   EdgeCost cost_of_edge(Corner edge) {
     ++outcome_.work.edges_costed;
+    if (texture_.active()) return texture_.cost_edge(surface_, edge, options_.placement);
     return cost_edge(surface_, surface_.vertex_at(edge), surface_.vertex_at(next_in_face(edge)), options_.placement);
   }
 
@@ -90,6 +93,8 @@ class QemSimplifier {
   WorkingSurface working_;
   Surface& surface_ = working_.surface;
   CollapseRules rules_;
+  TextureError texture_;
+  std::span<TextureFit> texture_fits_;
   EdgeCandidates candidates_;
   EdgeQueue queue_;  // a batch of candidates
   std::size_t batch_size_ = 0;
@@ -100,8 +105,10 @@ class QemSimplifier {
 
 bool QemSimplifier::carve(Arena& scratch) {
   QemScratch memory;
-  if (!carve_qem_scratch(scratch, mesh_.vertex_count, mesh_.face_count, memory)) return false;
+  if (!carve_qem_scratch(scratch, mesh_.vertex_count, mesh_.face_count, !mesh_.texture_coordinates.empty(), memory))
+    return false;
   memory_ = memory.surface;
+  texture_fits_ = memory.texture_fits;
   candidates_ = EdgeCandidates(memory.candidates);
   queue_ = EdgeQueue(memory.queue);
   batch_size_ = memory.batch_size;
@@ -224,7 +231,12 @@ bool QemSimplifier::find_candidates() {
 
 void QemSimplifier::offer(std::span<const Corner> edges) {
   float costs[kEdgesAtOnce];
-  cost_edges(surface_, edges, options_.placement, costs);
+  if (texture_.active()) {
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      costs[i] = texture_.cost_edge(surface_, edges[i], options_.placement).cost;
+  } else {
+    cost_edges(surface_, edges, options_.placement, costs);
+  }
   for (std::size_t i = 0; i < edges.size(); ++i) candidates_.offer(edge_key(costs[i], edges[i]));
   outcome_.work.edges_costed += edges.size();
 }
@@ -251,8 +263,10 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
     shares = shares_at(t, weight_of(surface_.vertices[n.a].quadric), weight_of(surface_.vertices[n.b].quadric));
   }
   const std::uint32_t singular = (surface_.places[n.a].mark | surface_.places[n.b].mark) & kSingular;
+  if (texture_.active()) texture_.begin_collapse(surface_, edge, position);
   const CollapsedEdge collapsed = collapse_edge(surface_, working_.seam_map, working_.attributes, n, shares);
   const std::uint32_t v = collapsed.vertex;
+  if (texture_.active()) texture_.end_collapse(surface_, v);
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;
 

@@ -43,13 +43,18 @@ constexpr std::uint64_t links_and_keys_bytes(std::uint32_t vertex_count, std::ui
 
 }  // namespace
 
-std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count, bool) {
+std::uint64_t qem_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count, bool has_texture_coordinates) {
+  const std::uint64_t texture = has_texture_coordinates ? aligned(std::uint64_t{vertex_count} * 4) +
+                                                              aligned(std::uint64_t{vertex_count} * sizeof(TextureFit))
+                                                        : 0;
   return kAlignment + aligned(std::uint64_t{vertex_count} * 4) + aligned(std::uint64_t{vertex_count} * sizeof(Place)) +
-         aligned(std::uint64_t{vertex_count} * sizeof(Vertex)) + links_and_keys_bytes(vertex_count, face_count);
+         aligned(std::uint64_t{vertex_count} * sizeof(Vertex)) + texture +
+         links_and_keys_bytes(vertex_count, face_count);
 }
 
-bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count, QemScratch& scratch) {
-  const std::uint64_t bytes = qem_scratch_bytes(vertex_count, face_count, false) - kAlignment;
+bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count, bool has_texture_coordinates,
+                       QemScratch& scratch) {
+  const std::uint64_t bytes = qem_scratch_bytes(vertex_count, face_count, has_texture_coordinates) - kAlignment;
   if (bytes > arena.available()) return false;
   const std::span<std::byte> memory = arena.allocate<std::byte>(static_cast<std::size_t>(bytes), kAlignment);
   if (memory.data() == nullptr) return false;
@@ -57,6 +62,10 @@ bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t f
   scratch.surface.vertex_of_wedge = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
   scratch.surface.places = rest.allocate<Place>(vertex_count, kAlignment);
   scratch.surface.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
+  if (has_texture_coordinates) {
+    scratch.surface.texture_places = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
+    scratch.texture_fits = rest.allocate<TextureFit>(vertex_count, kAlignment);
+  }
   const std::size_t mark = rest.used();
   scratch.surface.weld_table =
       rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
