@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gfx_subsystem/engine/state.h"
+#include "gfx_subsystem/engine/texture_layout.h"
 
 namespace usuzumi::gfx {
 namespace {
@@ -63,9 +64,8 @@ class Decoder {
       case Opcode::kSetVertexStreams: return take<SetVertexStreams>(payload);
       case Opcode::kClear: return take<Clear>(payload);
       case Opcode::kDraw: return take<Draw>(payload);
-      case Opcode::kSetTexture:
-      case Opcode::kSetFragmentState:
-        return fault(StatusCode::kUnsupported, "textures are not supported by this engine version");
+      case Opcode::kSetTexture: return take<SetTexture>(payload);
+      case Opcode::kSetFragmentState: return take<SetFragmentState>(payload);
       case Opcode::kEnd: break;
     }
     return fault(StatusCode::kUnsupported, "unknown opcode");
@@ -171,15 +171,15 @@ class Decoder {
   }
 
   Status apply(const SetVertexStreams& p) {
-    if (p.texture_coordinates != 0)
-      return fault(StatusCode::kUnsupported,
-                   "vertex streams: texture coordinates are not supported by this engine version");
     state_.streams = {};
-    state_.positions = state_.normals = state_.colours = {};
+    state_.positions = state_.normals = state_.colours = state_.texture_coordinates = {};
     if (p.vertex_count == 0) return refuse("vertex streams: vertex count is 0");
     Status status = stream(p.positions, p.position_stride, sizeof(Vec3), p.vertex_count, state_.positions);
     if (status.ok() && p.normals != 0) status = stream(p.normals, p.normal_stride, 4, p.vertex_count, state_.normals);
     if (status.ok() && p.colours != 0) status = stream(p.colours, p.colour_stride, 4, p.vertex_count, state_.colours);
+    if (status.ok() && p.texture_coordinates != 0)
+      status = stream(p.texture_coordinates, p.texture_coordinate_stride, sizeof(TexCoord), p.vertex_count,
+                      state_.texture_coordinates);
     if (status.ok()) state_.streams = p;
     return status;
   }
@@ -192,6 +192,33 @@ class Decoder {
     if (bytes > 0xFFFFFFFFu) return refuse("vertex streams: stream is longer than the address space");
     out = memory_.read_window(address, static_cast<std::size_t>(bytes));
     return out.data() != nullptr ? ok_status() : refuse("vertex streams: a stream is not all in memory");
+  }
+
+  /// A refused texture, like a refused depth target, leaves none.
+  Status apply(const SetTexture& p) {
+    if (p.format > TextureFormat::kArgb8888) return refuse("texture: unknown format");
+    state_.texture = {};
+    state_.texels = {};
+    if (p.format == TextureFormat::kNone) return ok_status();
+    if (p.filter > TextureFilter::kBilinear || p.wrap_s > TextureWrap::kMirror || p.wrap_t > TextureWrap::kMirror)
+      return refuse("texture: undefined filter or wrap mode");
+    if (p.width == 0 || p.height == 0 || p.width > kMaxTextureSize || p.height > kMaxTextureSize)
+      return refuse("texture: width and height must be 1 to 4096");
+    if (p.level_count == 0 || p.level_count > full_level_count(p.width, p.height))
+      return refuse("texture: level count must be 1 to that of the chain that ends with one texel");
+    if (p.base % 4 != 0) return refuse("texture: base must be a multiple of 4");
+    const auto texels = memory_.read_window(p.base, static_cast<std::size_t>(texture_bytes(p)));
+    if (texels.data() == nullptr) return refuse("texture is not all in memory");
+    state_.texture = p;
+    state_.texels = texels;
+    return ok_status();
+  }
+
+  Status apply(const SetFragmentState& p) {
+    if (p.alpha_test > 1 || p.alpha_reference > 255 || p.blend > BlendMode::kAlpha)
+      return refuse("fragment state: alpha test must be 0 or 1, its reference 0 to 255, the blend mode a defined one");
+    state_.fragment = p;
+    return ok_status();
   }
 
   Status apply(const Clear& p) {
@@ -211,6 +238,8 @@ class Decoder {
       return fault(StatusCode::kFailedPrecondition, "draw before vertex streams are set");
     if (state_.raster.depth_test != 0 && state_.depth_memory.empty())
       return fault(StatusCode::kFailedPrecondition, "depth test without a depth target");
+    if (!state_.texels.empty() && state_.texture_coordinates.empty())
+      return fault(StatusCode::kFailedPrecondition, "draw with a texture, but the streams have no texture coordinates");
     if (p.topology > Topology::kTriangleFan || p.index_format > IndexFormat::kU32)
       return refuse("draw: undefined topology or index format");
     DrawCall call;
@@ -218,7 +247,7 @@ class Decoder {
     call.word = static_cast<std::uint32_t>(word_);
     if (p.count == 0) return ok_status();
     Status status = p.index_format == IndexFormat::kNone ? resolve_range(call) : resolve_indices(call);
-    if (status.ok() && touches_target(call)) status = refuse("draw: vertices or indices lie in the target");
+    if (status.ok() && touches_target(call)) status = refuse("draw: vertices, indices or texels lie in the target");
     return status.ok() ? at_this_word(sink_.draw(state_, call)) : status;
   }
 
@@ -227,14 +256,16 @@ class Decoder {
     return status;
   }
 
-  /// An engine may read vertices long before or after it writes the pixels of other draws, so the two must not overlap.
+  /// An engine may read vertices and texels long before or after it writes the pixels of other draws, so the two must
+  /// not overlap.
   bool touches_target(const DrawCall& call) const {
     const auto overlaps = [](std::span<const std::byte> a, std::span<const std::byte> b) {
       return !a.empty() && !b.empty() && a.data() < b.data() + b.size() && b.data() < a.data() + a.size();
     };
     for (std::span<const std::byte> target :
          {std::span<const std::byte>(state_.colour_memory), std::span<const std::byte>(state_.depth_memory)})
-      for (std::span<const std::byte> source : {state_.positions, state_.normals, state_.colours, call.indices})
+      for (std::span<const std::byte> source : {state_.positions, state_.normals, state_.colours,
+                                                state_.texture_coordinates, state_.texels, call.indices})
         if (overlaps(target, source)) return true;
     return false;
   }

@@ -20,6 +20,8 @@ struct EngineCounters {
   std::uint64_t faces_drawn = 0;           // triangles left after clipping away, culling and zero area
   std::uint64_t pixels_tested = 0;         // pixels covered, before the depth test
   std::uint64_t pixels_cleared = 0;        // pixels filled by clears
+  std::uint64_t texels_fetched = 0;        // of the pixels tested in draws with a texture: nearest 1, bilinear 4 each
+  std::uint64_t pixels_blended = 0;        // pixels tested in draws that blend
 };
 
 /// `status.where` is the word in the list at which execution stopped.

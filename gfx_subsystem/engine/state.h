@@ -21,7 +21,11 @@ struct EngineState {
   command::SetLight light;
   command::SetRasterState raster;
   command::SetVertexStreams streams;
-  std::span<const std::byte> positions, normals, colours;  // resolved; normals and colours may be empty
+  std::span<const std::byte> positions, normals, colours, texture_coordinates;  // resolved; all but positions may be
+                                                                                // empty
+  command::SetTexture texture;
+  std::span<const std::byte> texels;  // all levels (texture_layout.h); empty: no texture
+  command::SetFragmentState fragment;
 };
 
 /// One checked draw. Indices are proven < streams.vertex_count before a consumer sees them.

@@ -23,6 +23,13 @@ TEST(EngineCostModel, ClearsFillFourPixelsAClockRoundedUpOnce) {
   EXPECT_EQ(engine_cycles({.pixels_cleared = 5}), 202u);
 }
 
+TEST(EngineCostModel, TexelsCostHalfAClockRoundedUpOnceAndBlendingOne) {
+  EXPECT_EQ(engine_cycles({.texels_fetched = 1}), 201u);
+  EXPECT_EQ(engine_cycles({.texels_fetched = 2}), 201u);
+  EXPECT_EQ(engine_cycles({.texels_fetched = 401}), 401u);
+  EXPECT_EQ(engine_cycles({.pixels_blended = 3}), 203u);
+}
+
 TEST(EngineCostModel, AFrameOfTheTruckAddsUp) {
   // 800x480 cleared, 2000 vertices, 3000 triangles of which 1400 show 60000 pixels, 300 words:
   // 200 + 300 + 32000 + 12000 + 33600 + 60000 + 96000

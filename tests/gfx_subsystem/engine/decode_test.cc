@@ -1,121 +1,11 @@
 // The command decoder: what it lets through, what it refuses, and at which word. Packets are written out as words where
 // the wire format is the point, and by command::Writer where the values are.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-#include <string>
-#include <vector>
 
-#include "gfx_subsystem/engine/state.h"
+#include "tests/gfx_subsystem/engine/decode_fixture.h"
 
 namespace usuzumi::gfx {
 namespace {
-
-using namespace command;
-
-constexpr BusAddress kTarget = 0x1000;    // 8 x 4 pixels of 4 bytes
-constexpr BusAddress kDepth = 0x1080;     // and their depth
-constexpr BusAddress kVertices = 0x1100;  // 8 positions
-constexpr BusAddress kIndices = 0x1180;
-constexpr BusAddress kReadOnly = 0x2000;  // 64 bytes that can only be read
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-class TestMemory final : public BusMemory {
- public:
-  alignas(8) std::array<std::byte, 0x200> ram{};
-  alignas(8) std::array<std::byte, 64> rom{};
-
-  template <class T>
-  void store(BusAddress address, std::initializer_list<T> values) {
-    std::memcpy(ram.data() + (address - kTarget), values.begin(), values.size() * sizeof(T));
-  }
-
- private:
-  static bool inside(BusAddress base, std::size_t bytes, BusAddress address, std::size_t size) {
-    return address >= base && address - base <= bytes && size <= bytes - (address - base);
-  }
-  std::span<const std::byte> do_read_window(BusAddress address, std::size_t size) const override {
-    if (inside(kTarget, ram.size(), address, size)) return std::span(ram).subspan(address - kTarget, size);
-    if (inside(kReadOnly, rom.size(), address, size)) return std::span(rom).subspan(address - kReadOnly, size);
-    return {};
-  }
-  std::span<std::byte> do_write_window(BusAddress address, std::size_t size) override {
-    if (inside(kTarget, ram.size(), address, size)) return std::span(ram).subspan(address - kTarget, size);
-    return {};
-  }
-};
-
-/// Remembers what came through.
-class RecordingSink final : public CommandSink {
- public:
-  std::vector<Clear> clears;
-  std::vector<DrawCall> draws;
-  EngineState last;
-  Status answer;
-
- private:
-  Status clear(const EngineState& state, const Clear& clear) override {
-    last = state;
-    clears.push_back(clear);
-    return answer;
-  }
-  Status draw(const EngineState& state, const DrawCall& call) override {
-    last = state;
-    draws.push_back(call);
-    return answer;
-  }
-};
-
-constexpr SetColourTarget kGoodTarget{kTarget, 32, 8, 4, PixelFormat::kXrgb8888};
-constexpr SetDepthTarget kGoodDepth{kDepth, 32, DepthFormat::kUnorm24};
-
-SetVertexStreams good_streams() {
-  SetVertexStreams s;
-  s.vertex_count = 8;
-  s.positions = kVertices;
-  return s;
-}
-
-struct DecodeTest : ::testing::Test {
-  TestMemory memory;
-  RecordingSink sink;
-  std::uint64_t words_consumed = 0;
-
-  Status decode_words(std::vector<std::uint32_t> words) { return decode(words, memory, sink, words_consumed); }
-
-  template <class... Packets>
-  Status decode_packets(const Packets&... packets) {
-    std::array<std::uint32_t, 256> words{};
-    Writer writer(words);
-    (writer.put(packets), ...);
-    const auto list = writer.finish();
-    EXPECT_TRUE(list.ok());
-    return decode(*list, memory, sink, words_consumed);
-  }
-
-  /// After a good target (6 words) and depth target (4 words), so that a refused packet is word 10.
-  template <class Packet>
-  void expect_refused(const Packet& packet, const std::string& why) {
-    const Status status = decode_packets(kGoodTarget, kGoodDepth, packet);
-    EXPECT_EQ(status.code, StatusCode::kInvalidArgument) << why;
-    EXPECT_EQ(status.where, 10u) << why;
-    EXPECT_EQ(words_consumed, 10u) << why;
-  }
-
-  /// After target, depth target and streams (6 + 4 + 11 words).
-  void expect_draw_refused(const Draw& draw, const std::string& why) {
-    const Status status = decode_packets(kGoodTarget, kGoodDepth, good_streams(), draw);
-    EXPECT_EQ(status.code, StatusCode::kInvalidArgument) << why;
-    EXPECT_EQ(status.where, 21u) << why;
-    EXPECT_TRUE(sink.draws.empty()) << why;
-  }
-};
 
 // ---- the wire
 
@@ -156,7 +46,7 @@ TEST_F(DecodeTest, SpareHeaderBitsMustBeZero) {
 
 TEST_F(DecodeTest, EveryUnknownOpcodeIsUnsupported) {
   for (std::uint32_t opcode = 1; opcode < 256; ++opcode) {
-    if (opcode <= 0x08 || opcode == 0x10 || opcode == 0x11) continue;
+    if (opcode <= 0x08 || opcode == 0x10 || opcode == 0x11 || opcode == 0x20 || opcode == 0x21) continue;
     const Status status = decode_words({opcode << 24, 0});
     EXPECT_EQ(status.code, StatusCode::kUnsupported) << "opcode " << opcode;
     EXPECT_EQ(status.where, 0u);
@@ -296,7 +186,10 @@ TEST_F(DecodeTest, StreamsAreChecked) {
   expect_refused(with([](auto& s) { s.colours = kVertices, s.colour_stride = 0; }), "colour stride 0");
   EXPECT_TRUE(decode_packets(with([](auto& s) { s.positions = kReadOnly, s.vertex_count = 5; })).ok())
       << "60 of 64 bytes";
-  EXPECT_EQ(decode_packets(with([](auto& s) { s.texture_coordinates = kVertices; })).code, StatusCode::kUnsupported);
+  expect_refused(with([](auto& s) { s.texture_coordinates = kVertices + 2; }), "texture coordinates unaligned");
+  expect_refused(with([](auto& s) { s.texture_coordinates = kVertices, s.texture_coordinate_stride = 4; }),
+                 "texture coordinate stride shorter than an element");
+  expect_refused(with([](auto& s) { s.texture_coordinates = 0x3000; }), "texture coordinates not in memory");
 }
 
 TEST_F(DecodeTest, AFaultKeepsLaterDrawsFromTheEngine) {

@@ -85,8 +85,8 @@ TEST(Faults, StreamsAndDrawsBeyondMemoryAreRefused) {
   s.vertex_count = 1u << 30;
   expect_fault(s);
   s.vertex_count = 3;
-  s.texture_coordinates = kRam;
-  expect_fault(s, StatusCode::kUnsupported);
+  s.texture_coordinates = kRam + 2;
+  expect_fault(s);
   expect_fault(Draw{Topology::kTriangles, IndexFormat::kNone, 0, 1, 3});
   expect_fault(Draw{Topology::kTriangles, IndexFormat::kU16, kRam + 1, 0, 3});
   expect_fault(Draw{Topology::kTriangles, IndexFormat::kU32, kRam, 0, 1u << 30});
@@ -126,7 +126,7 @@ TEST(Faults, DrawingWithoutTargetOrStreamsIsRefused) {
 
 TEST(Faults, PacketsThatAreNoPacketsStopTheList) {
   struct Case { std::uint32_t word; StatusCode code; };
-  for (const auto& c : {Case{0x7F000000u, StatusCode::kUnsupported}, Case{0x20000000u, StatusCode::kUnsupported},
+  for (const auto& c : {Case{0x7F000000u, StatusCode::kUnsupported}, Case{0x22000000u, StatusCode::kUnsupported},
                         Case{0x10010003u, StatusCode::kDataLoss}, Case{0x10000002u, StatusCode::kDataLoss},
                         Case{0x1000FFFFu, StatusCode::kDataLoss}}) {
     FaultBench f;
