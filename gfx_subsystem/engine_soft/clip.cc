@@ -23,15 +23,19 @@ ClipVertex cut(const ClipVertex& inside, float inside_distance, const ClipVertex
   const float t = inside_distance / (inside_distance - outside_distance);
   const auto mix = [t](float a, float b) { return a + (b - a) * t; };
   const Vec4 &a = inside.position, &b = outside.position;
-  ClipVertex v{{mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), mix(a.w, b.w)}, {}};
+  ClipVertex v{{mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), mix(a.w, b.w)}, {}, {}};
   for (int k = 0; k < 3; ++k) v.colour[k] = mix(inside.colour[k], outside.colour[k]);
+  v.extra = {mix(inside.extra.s, outside.extra.s), mix(inside.extra.t, outside.extra.t),
+             mix(inside.extra.alpha, outside.extra.alpha)};
   return v;
 }
 
 /// False where w is too small to divide by, which only a corner at the eye itself is.
-bool project(const DrawSetup& d, const ClipVertex& v, Vertex& out) {
+bool project(const DrawSetup& d, const ClipVertex& v, PlacedVertex& placed) {
   const Vec4& p = v.position;
   if (!(p.w >= kMinClipW)) return false;
+  Vertex& out = placed.vertex;
+  placed.extra = {v.extra.s, v.extra.t, std::clamp(v.extra.alpha, 0.0f, d.lane_limit[1])};
   const float u = 1.0f / p.w;
   const auto window = [&](int axis, float c) { return (c * u) * d.scale[axis] + d.offset[axis]; };
   const auto channel = [&](int k) { return std::clamp(v.colour[k], 0.0f, d.lane_limit[k]); };
@@ -77,7 +81,7 @@ ClippedPolygon clip_triangle(const DrawSetup& d, const ClipVertex (&corner)[3]) 
   return polygon;
 }
 
-bool clip_segment(const DrawSetup& d, const ClipVertex (&end)[2], Vertex (&out)[2]) {
+bool clip_segment(const DrawSetup& d, const ClipVertex (&end)[2], PlacedVertex (&out)[2]) {
   ClipVertex a = end[0], b = end[1];
   for (int plane = 0; plane < kPlanes; ++plane) {
     const float da = distance(d, plane, a.position), db = distance(d, plane, b.position);

@@ -12,13 +12,14 @@ namespace usuzumi::gfx::soft {
 struct ClipVertex {
   Vec4 position;     // clip space
   float colour[3];   // lane units
+  VertexExtra extra;
 };
 
 /// A triangle cut by six planes has at most nine corners.
 inline constexpr int kMaxClippedCorners = 9;
 
 struct ClippedPolygon {
-  Vertex corner[kMaxClippedCorners];
+  PlacedVertex corner[kMaxClippedCorners];
   int corners = 0;   // 0: nothing is left
 };
 
@@ -26,6 +27,6 @@ struct ClippedPolygon {
 ClippedPolygon clip_triangle(const DrawSetup& draw, const ClipVertex (&corner)[3]);
 
 /// Cuts a segment; false when nothing is left.
-bool clip_segment(const DrawSetup& draw, const ClipVertex (&end)[2], Vertex (&out)[2]);
+bool clip_segment(const DrawSetup& draw, const ClipVertex (&end)[2], PlacedVertex (&out)[2]);
 
 }  // namespace usuzumi::gfx::soft

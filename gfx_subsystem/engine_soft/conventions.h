@@ -17,6 +17,21 @@
 //                  Arithmetic is modulo 2^16: a covered pixel's true value lies in range, and the error of the planes
 //                  stays below the half step (see kMaxSpan), so nothing wraps that is seen.
 // Depth            24.8 unsigned, or 16.8 for unorm16, with +1/2 as well, modulo 2^32. Linear in window space.
+// Texture          s and t of a vertex are singles within kMaxTextureCoordinate: what lies beyond is drawn in to it,
+//                  what is not a number becomes 0. A triangle's are first shifted by whole repeats (of a mirrored axis:
+//                  by pairs of them) until its first corner lies in the first; s/w, t/w and 1/w are then planes in
+//                  singles, and s = (s/w) * (1 / (1/w)) at each pixel. Wrapping makes of it a place along the image in
+//                  [0, 1].
+// Level            rho^2 = the larger of |d(s W, t H)/dx|^2 and |d(s W, t H)/dy|^2, W x H the size of level 0, from the
+//                  planes' derivatives at the pixel; the level is floor(log2(rho) + 1/2), which is the exponent of
+//                  rho^2 plus 1, halved. Held to the levels that there are.
+// Nearest          texel floor(place * size).
+// Bilinear         texel units in 24.8: floor(place * size * 256 + 1/2) - 128; the fraction f weighs two texels a, b in
+//                  whole channels of 8 bits: (256 a + (b - a) f + 128) >> 8, along s first, then along t.
+// Fragments        whole channels of 8 bits, alpha too. texel * colour is the product / 255 rounded to nearest; colours
+//                  are lane units of 8 bits as above. The alpha test compares that alpha. Blending is (colour * a +
+//                  there * (255 - a)) / 255 rounded to nearest, `there` of 5 or 6 bits made 8 by repeating the upper
+//                  ones below; RGB565 then takes round(channel * 31 / 255) or 63.
 #pragma once
 
 #include <bit>
@@ -51,5 +66,10 @@ inline constexpr std::int32_t kTilePixels = kTileSize * kTileSize;
 /// Clip-space values beyond (or NaN), and w below, make no triangle at all: the primitive is dropped.
 inline constexpr float kMaxClipValue = 1e18f;
 inline constexpr float kMinClipW = 1e-18f;
+
+/// Largest |s| and |t| of a vertex: a single has 8 bits left below 1 there.
+inline constexpr float kMaxTextureCoordinate = 65536.0f;
+/// ... and of a pixel, where rounding may go beyond; its floor fits an integer.
+inline constexpr float kMaxTexturePlace = 4194304.0f;  // 2^22
 
 }  // namespace usuzumi::gfx::soft

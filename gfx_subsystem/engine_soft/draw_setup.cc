@@ -28,6 +28,21 @@ float guard(float centre, float half) {
   return std::min((kGuardPixels - std::fabs(centre)) / half, 1e6f);
 }
 
+TextureSetup texture_setup(const EngineState& s) {
+  TextureSetup t{};
+  if (s.texels.empty()) return t;
+  t.texels = s.texels.data();
+  t.width = static_cast<std::int32_t>(s.texture.width);
+  t.height = static_cast<std::int32_t>(s.texture.height);
+  t.level_count = s.texture.level_count;
+  t.format = s.texture.format;
+  t.filter = s.texture.filter;
+  t.wrap_s = s.texture.wrap_s;
+  t.wrap_t = s.texture.wrap_t;
+  for (std::uint32_t i = 0; i < t.level_count; ++i) t.offset[i] = static_cast<std::int32_t>(level_offset(s.texture, i));
+  return t;
+}
+
 }  // namespace
 
 DrawSetup prepare_draw(const EngineState& s, const DrawCall& call) {
@@ -56,8 +71,16 @@ DrawSetup prepare_draw(const EngineState& s, const DrawCall& call) {
   d.guard[0] = guard(centre_x, half_width);
   d.guard[1] = guard(centre_y, half_height);
 
+  d.texture = texture_setup(s);
+  d.texture_coordinates = s.texels.empty() ? nullptr : s.texture_coordinates.data();
+  d.texels_per_pixel = s.texels.empty() ? 0 : s.texture.filter == TextureFilter::kBilinear ? 4 : 1;
+  d.blend = s.fragment.blend == BlendMode::kAlpha;
+  d.alpha_reference = s.fragment.alpha_test != 0 ? s.fragment.alpha_reference : 0;
+  d.fragments = !s.texels.empty() || d.blend || d.alpha_reference != 0;
+
   d.rgb565 = s.colour_target.format == PixelFormat::kRgb565;
-  const std::uint32_t levels[3] = {d.rgb565 ? 31u : 255u, d.rgb565 ? 63u : 255u, d.rgb565 ? 31u : 255u};
+  const bool lanes565 = d.rgb565 && !d.fragments;
+  const std::uint32_t levels[3] = {lanes565 ? 31u : 255u, lanes565 ? 63u : 255u, lanes565 ? 31u : 255u};
   for (int k = 0; k < 3; ++k) {
     const std::uint32_t step = 65536 / (levels[k] + 1);
     d.lane_scale[k] = static_cast<float>(levels[k] * step) / 255.0f;

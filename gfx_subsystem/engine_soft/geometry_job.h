@@ -30,14 +30,16 @@ inline VertexSpan vertices_of(command::Topology topology, std::uint32_t first, s
 class DrawRun {
  public:
   DrawRun(const Round& round, Job& job, Worker& worker, Binner& binner, std::uint32_t draw)
-      : d_(round.draws[draw]), job_(job), worker_(worker), setup_(d_, draw, binner) {}
+      : d_(round.draws[draw]), job_(job), store_(d_, worker), setup_(d_, draw, binner, store_) {}
 
   /// False when the pool is exhausted; job.next says how far it went.
   bool run(const WorkItem& item) {
     item_first_ = item.first;
     if (d_.topology == command::Topology::kTriangleFan) {
       centre_ = d_.call.vertex(0);
-      transform_vertices(d_, 1, [&](std::uint32_t) { return centre_; }, &centre_vertex_);
+      const auto centre = [&](std::uint32_t) { return centre_; };
+      transform_vertices(d_, 1, centre, &centre_vertex_.vertex);
+      if (d_.fragments) fetch_extras(d_, 1, centre, &centre_vertex_.extra);
     }
     while (job_.next.primitive < item.count)
       if (!run_chunk(item.first + job_.next.primitive, item.count - job_.next.primitive)) return false;
@@ -50,7 +52,7 @@ class DrawRun {
     for (;; count = (count + 1) / 2) {
       span_ = vertices_of(d_.topology, first, count);
       if (d_.call.draw.index_format == command::IndexFormat::kNone) {
-        if (span_.count > worker_.vertex_capacity) continue;
+        if (span_.count > store_.capacity) continue;
         base_ = d_.call.vertex(span_.first);
         transform_range(span_.count);
         return assemble(first, count, [this](std::uint32_t i) { return i - span_.first; });
@@ -58,7 +60,7 @@ class DrawRun {
       std::uint32_t low, high;
       index_range(low, high);
       const std::uint32_t range = high - low + 1;
-      if (range <= worker_.vertex_capacity && range / 2 <= span_.count) {
+      if (range <= store_.capacity && range / 2 <= span_.count) {
         base_ = low;
         transform_range(range);
         const std::byte* indices = d_.call.indices.data();
@@ -69,15 +71,20 @@ class DrawRun {
         return assemble(first, count,
                         [=](std::uint32_t i) { return load<std::uint32_t>(indices + 4 * std::size_t{i}) - base; });
       }
-      if (span_.count > worker_.vertex_capacity) continue;
-      transform_vertices(
-          d_, span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); }, worker_.vertices);
+      if (span_.count > store_.capacity) continue;
+      transform(span_.count, [this](std::uint32_t i) { return d_.call.vertex(span_.first + i); });
       return assemble(first, count, [this](std::uint32_t i) { return i - span_.first; });
     }
   }
 
   void transform_range(std::uint32_t count) {
-    transform_vertices(d_, count, [this](std::uint32_t i) { return base_ + i; }, worker_.vertices);
+    transform(count, [this](std::uint32_t i) { return base_ + i; });
+  }
+
+  template <class Source>
+  void transform(std::uint32_t count, Source source) {
+    transform_vertices(d_, count, source, store_.vertices);
+    if (d_.fragments) fetch_extras(d_, count, source, store_.extras);
   }
 
   void index_range(std::uint32_t& low, std::uint32_t& high) const {
@@ -98,7 +105,7 @@ class DrawRun {
   /// `local(i)` is the place in the worker's vertices of the draw's i-th vertex.
   template <class Local>
   bool assemble(std::uint32_t first, std::uint32_t count, Local local) {
-    const Vertex* v = worker_.vertices;
+    const Vertex* v = store_.vertices;
     const auto each = [&](auto primitive) {
       for (std::uint32_t i = first; i < first + count; ++i) {
         if (!primitive(i)) return false;
@@ -120,7 +127,7 @@ class DrawRun {
             [&](std::uint32_t at) { return v + local(at); });
       case command::Topology::kTriangleFan:
         return triangles(first, count, [](std::uint32_t i, std::uint32_t k) { return k == 0 ? 0 : i + k; },
-                         [&](std::uint32_t at) { return at == 0 ? &centre_vertex_ : v + local(at); });
+                         [&](std::uint32_t at) { return at == 0 ? &centre_vertex_.vertex : v + local(at); });
     }
     return true;
   }
@@ -173,7 +180,8 @@ class DrawRun {
     const ClippedPolygon p = clip_triangle(d_, {clip_vertex(a, ia), clip_vertex(b, ib), clip_vertex(c, ic)});
     std::uint32_t drawn = 0;
     for (int i = 2; i < p.corners; ++i)
-      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0], p.corner[i - 1], p.corner[i], c, true, drawn))
+      if (!piece(static_cast<std::uint32_t>(i - 2), p.corner[0].vertex, p.corner[i - 1].vertex, p.corner[i].vertex, c,
+                 true, drawn))
         return false;
     job_.next.piece = 0;
     ++job_.next.primitive;
@@ -185,35 +193,37 @@ class DrawRun {
   bool point(const Vertex& v) {
     if (v.outcode != 0) return true;
     const std::int32_t h = d_.point_half_size;
-    Vertex corner[4] = {v, v, v, v};
-    corner[0].x = corner[3].x = v.x - h;
-    corner[1].x = corner[2].x = v.x + h;
-    corner[0].y = corner[1].y = v.y - h;
-    corner[2].y = corner[3].y = v.y + h;
+    const PlacedVertex centre = placed(v);
+    PlacedVertex corner[4] = {centre, centre, centre, centre};
+    corner[0].vertex.x = corner[3].vertex.x = v.x - h;
+    corner[1].vertex.x = corner[2].vertex.x = v.x + h;
+    corner[0].vertex.y = corner[1].vertex.y = v.y - h;
+    corner[2].vertex.y = corner[3].vertex.y = v.y + h;
     return quad(corner, v);
   }
 
   /// A parallelogram, widened by half the line width to both sides along the axis in which the line is shorter.
   bool line(const Vertex& a, const Vertex& b, std::uint32_t ia, std::uint32_t ib) {
     if ((a.outcode & b.outcode & kViewSides) != 0) return true;
-    Vertex end[2] = {a, b};
+    PlacedVertex end[2] = {placed(a), placed(b)};
     if (((a.outcode | b.outcode) & kNeedsClip) != 0) {
       if (((a.outcode | b.outcode) & kNotANumber) != 0 ||
           !clip_segment(d_, {clip_vertex(a, ia), clip_vertex(b, ib)}, end))
         return true;
     }
     const std::int32_t h = d_.line_half_width;
-    const bool wide = std::abs(end[1].x - end[0].x) >= std::abs(end[1].y - end[0].y);
-    Vertex corner[4] = {end[0], end[1], end[1], end[0]};
-    for (int i = 0; i < 4; ++i) (wide ? corner[i].y : corner[i].x) += i < 2 ? -h : h;
+    const Vertex &from = end[0].vertex, &to = end[1].vertex;
+    const bool wide = std::abs(to.x - from.x) >= std::abs(to.y - from.y);
+    PlacedVertex corner[4] = {end[0], end[1], end[1], end[0]};
+    for (int i = 0; i < 4; ++i) (wide ? corner[i].vertex.y : corner[i].vertex.x) += i < 2 ? -h : h;
     return quad(corner, b);
   }
 
   /// Two triangles; neither culled nor counted as faces.
-  bool quad(const Vertex (&corner)[4], const Vertex& provoking) {
+  bool quad(const PlacedVertex (&corner)[4], const Vertex& provoking) {
     std::uint32_t drawn = 0;
-    if (!piece(0, corner[0], corner[1], corner[2], provoking, false, drawn) ||
-        !piece(1, corner[0], corner[2], corner[3], provoking, false, drawn))
+    if (!piece(0, corner[0].vertex, corner[1].vertex, corner[2].vertex, provoking, false, drawn) ||
+        !piece(1, corner[0].vertex, corner[2].vertex, corner[3].vertex, provoking, false, drawn))
       return false;
     job_.next.piece = 0;
     return true;
@@ -230,16 +240,18 @@ class DrawRun {
     return true;
   }
 
+  PlacedVertex placed(const Vertex& v) const { return {v, d_.fragments ? store_.extra_of(v) : VertexExtra{}}; }
+
   /// The vertex before projection, by the arithmetic of the vertex stage.
   ClipVertex clip_vertex(const Vertex& v, std::uint32_t position_in_draw) const {
     const std::uint32_t vertex = d_.call.vertex(position_in_draw);
     const Vec3 p = fetch<Vec3>(d_.positions, d_.streams.position_stride, vertex, 0);
-    return {transform_point(d_.transform, p), {v.red, v.green, v.blue}};
+    return {transform_point(d_.transform, p), {v.red, v.green, v.blue}, placed(v).extra};
   }
 
   const DrawSetup& d_;
   Job& job_;
-  Worker& worker_;
+  VertexStore store_;
   TriangleSetup setup_;
   VertexSpan span_{};
   static constexpr std::uint32_t kBatch = 64;
@@ -248,7 +260,7 @@ class DrawRun {
   std::uint32_t item_first_ = 0;
   std::uint32_t base_ = 0;
   std::uint32_t centre_ = 0;
-  Vertex centre_vertex_{};
+  PlacedVertex centre_vertex_{};
 };
 
 inline bool bin_clear(const Round& r, Binner& binner, std::uint32_t index) {

@@ -34,26 +34,24 @@ inline bool cross_edges(const BigTriangle& t, TileOrigin origin, TileTriangle& o
   return true;
 }
 
-/// Planes at the tile's first pixel. All modulo 2^64, of which the low 40 bits of the result are right.
-inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
-  const auto dx = static_cast<std::uint64_t>(std::int64_t{origin.x * kSubpixelOne + kSubpixelHalf - t.from_x});
-  const auto dy = static_cast<std::uint64_t>(std::int64_t{origin.y * kSubpixelOne + kSubpixelHalf - t.from_y});
+struct BigPlane {
+  std::uint32_t value, dx, dy;
+};
+/// A plane (dx, dy) away in 24.8. All modulo 2^64, of which the low 40 bits of the result are right.
+[[gnu::always_inline]] inline BigPlane derive_plane(std::uint64_t value, std::uint64_t step_x, std::uint64_t step_y,
+                                                    std::int32_t dx, std::int32_t dy) {
+  const auto wide = [](std::int32_t v) { return static_cast<std::uint64_t>(std::int64_t{v}); };
   const auto shifted = [](std::uint64_t v, int by) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(v) >> by);
   };
-  std::uint32_t base[4], step_x[4], step_y[4];
-  for (int k = 0; k < 4; ++k) {
-    base[k] = static_cast<std::uint32_t>(
-        shifted(t.plane[k] + shifted(t.plane_dx[k] * dx + t.plane_dy[k] * dy, kSubpixelBits), 16));
-    step_x[k] = static_cast<std::uint32_t>(shifted(t.plane_dx[k] + 0x8000, 16));
-    step_y[k] = static_cast<std::uint32_t>(shifted(t.plane_dy[k] + 0x8000, 16));
-  }
-  const auto low = [](const std::uint32_t* v) { return (v[2] & 0xFFFF) | v[0] << 16; };
-  out.planes = {base[3],     step_x[3],          step_y[3],  base[1] & 0xFFFF, low(base), step_x[1] & 0xFFFF,
-                low(step_x), step_y[1] & 0xFFFF, low(step_y)};
-  const auto shading = static_cast<Shading>(t.shading);
-  if (shading == Shading::kConstant) out.planes.high = t.constant_pixel;
-  if (shading != Shading::kPerspective) return;
+  return {static_cast<std::uint32_t>(
+              shifted(value + shifted(step_x * wide(dx) + step_y * wide(dy), kSubpixelBits), 16)),
+          static_cast<std::uint32_t>(shifted(step_x + 0x8000, 16)),
+          static_cast<std::uint32_t>(shifted(step_y + 0x8000, 16))};
+}
+
+/// Perspective planes at the tile's first pixel.
+inline void derive_perspective(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
   const double px = static_cast<double>(origin.x * kSubpixelOne + kSubpixelHalf - t.from_x) / kSubpixelOne;
   const double py = static_cast<double>(origin.y * kSubpixelOne + kSubpixelHalf - t.from_y) / kSubpixelOne;
   for (int k = 0; k < 4; ++k) {
@@ -62,6 +60,25 @@ inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle&
     out.perspective.dx[k] = static_cast<float>(t.perspective_dx[k]);
     out.perspective.dy[k] = static_cast<float>(t.perspective_dy[k]);
   }
+}
+
+/// Planes at the tile's first pixel.
+inline void derive_planes(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
+  std::uint32_t base[4], step_x[4], step_y[4];
+  for (int k = 0; k < 4; ++k) {
+    const BigPlane p = derive_plane(t.plane[k], t.plane_dx[k], t.plane_dy[k],
+                                    origin.x * kSubpixelOne + kSubpixelHalf - t.from_x,
+                                    origin.y * kSubpixelOne + kSubpixelHalf - t.from_y);
+    base[k] = p.value;
+    step_x[k] = p.dx;
+    step_y[k] = p.dy;
+  }
+  const auto low = [](const std::uint32_t* v) { return (v[2] & 0xFFFF) | v[0] << 16; };
+  out.planes = {base[3],     step_x[3],          step_y[3],  base[1] & 0xFFFF, low(base), step_x[1] & 0xFFFF,
+                low(step_x), step_y[1] & 0xFFFF, low(step_y)};
+  const auto shading = static_cast<Shading>(t.shading);
+  if (shading == Shading::kConstant) out.planes.high = t.constant_pixel;
+  if (shading == Shading::kPerspective) derive_perspective(t, origin, out);
 }
 
 /// For a row of blocks, one bit per block: wholly outside of an edge, and not wholly inside of all.
@@ -92,9 +109,9 @@ struct RowOfBlocks {
 /// Bits first .. last.
 constexpr std::uint32_t bit_range(std::int32_t first, std::int32_t last) { return (2u << last) - (1u << first); }
 
-template <Shading kShading, bool kDepth, bool kRgb565>
-std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const TileBuffers& tile) {
-  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, &t.perspective);
+template <class PixelShader>
+[[gnu::always_inline]] inline std::uint32_t raster_blocks(const PixelShader& shader, const TileTriangle& t,
+                                                          const TileBuffers& tile) {
   const LanePattern lanes = lane_pattern();
   const I16 box = bits_as<I16>(splat_u(pair(t.x1 - t.x0, t.y1 - t.y0)));
   // Columns of blocks that the box touches, and those it holds from side to side.
@@ -136,6 +153,45 @@ std::uint32_t raster_blocks(const DrawSetup& d, const TileTriangle& t, const Til
   return covered;
 }
 
+template <Shading kShading, bool kDepth, bool kRgb565>
+std::uint32_t raster_colours(const DrawSetup& d, const TileTriangle& t, const TileBuffers& tile) {
+  return raster_blocks(Shader<kShading, kDepth, kRgb565>(d, t.planes, &t.perspective), t, tile);
+}
+
+/// Derives what a triangle of fragments has besides its planes.
+inline TexturePlanes derive_texture(const BigTriangle& t, TileOrigin origin, TileTriangle& out) {
+  const auto& big = *reinterpret_cast<const BigTexture*>(&t + 1);
+  TexturePlanes local{};
+  local.shading = big.shading;
+  const std::int32_t dx = origin.x * kSubpixelOne + kSubpixelHalf - t.from_x,
+                     dy = origin.y * kSubpixelOne + kSubpixelHalf - t.from_y;
+  const double px = static_cast<double>(dx) / kSubpixelOne, py = static_cast<double>(dy) / kSubpixelOne;
+  for (int k = 0; k < 4; ++k) {
+    local.value[k] = static_cast<float>(big.value[k] + big.dx[k] * px + big.dy[k] * py);
+    local.dx[k] = static_cast<float>(big.dx[k]);
+    local.dy[k] = static_cast<float>(big.dy[k]);
+  }
+  if (big.shading == Shading::kConstant) {
+    out.planes.high = t.constant_pixel;
+    out.planes.low = big.constant_low;
+  } else if (big.shading == Shading::kAffine) {
+    const BigPlane a = derive_plane(big.alpha, big.alpha_dx, big.alpha_dy, dx, dy);
+    out.planes.high |= a.value << 16;
+    out.planes.high_dx |= a.dx << 16;
+    out.planes.high_dy |= a.dy << 16;
+  } else {
+    derive_perspective(t, origin, out);
+  }
+  return local;
+}
+
+template <TexelFetch kFetch>
+std::uint32_t raster_fragments(const DrawSetup& d, const BigTriangle& t, TileOrigin origin, const TileBuffers& tile,
+                               TileTriangle& local) {
+  const TexturePlanes texture = derive_texture(t, origin, local);
+  return raster_blocks(FragmentShader<kFetch>(d, local.planes, texture, &local.perspective), local, tile);
+}
+
 /// Returns the pixels covered.
 template <bool kRgb565>
 std::uint32_t raster_big(const DrawSetup& d, const BigTriangle& t, TileOrigin origin, const TileBuffers& tile) {
@@ -146,12 +202,16 @@ std::uint32_t raster_big(const DrawSetup& d, const BigTriangle& t, TileOrigin or
   local.y1 = std::min<std::int32_t>(t.last_y - origin.y, kTileSize - 1);
   if (!cross_edges(t, origin, local)) return 0;
   derive_planes(t, origin, local);
+  if (static_cast<Shading>(t.shading) == Shading::kFragment)
+    return with_fetch(d, [&](auto fetch) {
+      return raster_fragments<decltype(fetch)::value>(d, t, origin, tile, local);
+    });
   const auto raster = [&](auto depth) {
     constexpr bool kDepth = decltype(depth)::value;
     switch (static_cast<Shading>(t.shading)) {
-      case Shading::kConstant: return raster_blocks<Shading::kConstant, kDepth, kRgb565>(d, local, tile);
-      case Shading::kAffine: return raster_blocks<Shading::kAffine, kDepth, kRgb565>(d, local, tile);
-      default: return raster_blocks<Shading::kPerspective, kDepth, kRgb565>(d, local, tile);
+      case Shading::kConstant: return raster_colours<Shading::kConstant, kDepth, kRgb565>(d, local, tile);
+      case Shading::kAffine: return raster_colours<Shading::kAffine, kDepth, kRgb565>(d, local, tile);
+      default: return raster_colours<Shading::kPerspective, kDepth, kRgb565>(d, local, tile);
     }
   };
   return d.depth_test ? raster(std::true_type{}) : raster(std::false_type{});

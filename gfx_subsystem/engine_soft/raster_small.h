@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "gfx_subsystem/engine_soft/fragment_shader.h"
 #include "gfx_subsystem/engine_soft/raster_small_scalar.h"
 #include "gfx_subsystem/engine_soft/shader.h"
 
@@ -16,11 +17,9 @@ namespace {
   return bits_as<I32>((xy >= 0) & (xy <= last)) == -1;
 }
 
-/// Returns the pixels covered.
-template <Shading kShading, bool kDepth, bool kRgb565>
-std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin, const TileBuffers& tile) {
-  if constexpr (kPixelwise) return raster_small_scalar<kShading, kDepth, kRgb565>(d, t, origin, tile);
-  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
+template <class PixelShader>
+[[gnu::always_inline]] inline std::uint32_t raster_small_blocks(const PixelShader& shader, const SmallTriangle& t,
+                                                                TileOrigin origin, const TileBuffers& tile) {
   const bool clipped = (t.draw & kClippedBox) != 0;
   const std::int32_t x = t.x - origin.x, y = t.y - origin.y;  // of the record's origin pixel within the tile
   const std::int32_t first_column = std::max<std::int32_t>(x, 0) / kBlockSize,
@@ -50,6 +49,23 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
     }
   }
   return covered;
+}
+
+/// Returns the pixels covered.
+template <Shading kShading, bool kDepth, bool kRgb565>
+std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin, const TileBuffers& tile) {
+  if constexpr (kPixelwise) return raster_small_scalar<kShading, kDepth, kRgb565>(d, t, origin, tile);
+  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
+  return raster_small_blocks(shader, t, origin, tile);
+}
+
+/// The same of a triangle of fragments.
+template <TexelFetch kFetch>
+std::uint32_t raster_small_fragments(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin,
+                                     const TileBuffers& tile) {
+  const auto& texture = *reinterpret_cast<const TexturePlanes*>(&t + 1);
+  const FragmentShader<kFetch> shader(d, t.planes, texture, reinterpret_cast<const PerspectivePlanes*>(&t + 2));
+  return raster_small_blocks(shader, t, origin, tile);
 }
 
 }  // namespace

@@ -29,15 +29,29 @@ struct alignas(32) Vertex {
 };
 static_assert(sizeof(Vertex) == 32);
 
-/// How a triangle's colour is found; also the kind of an entry in a tile's list.
-enum class Shading : std::uint32_t { kConstant = 0, kAffine = 1, kPerspective = 2 };
+/// What a vertex has besides where its draw makes fragments (DrawSetup::fragments).
+struct alignas(16) VertexExtra {
+  float s, t;   // within kMaxTextureCoordinate
+  float alpha;  // lane units of 8 bits, as the colours
+};
+
+/// A vertex that lies on its own, not among a worker's.
+struct PlacedVertex {
+  Vertex vertex;
+  VertexExtra extra;
+};
+
+/// How a triangle's colour is found; also the kind of an entry in a tile's list, but for kFragment.
+enum class Shading : std::uint32_t { kConstant = 0, kAffine = 1, kPerspective = 2, kFragment = 3 };
 
 /// Depth and colour as linear functions of the pixel, counted from an origin pixel. Depth is 24.8, modulo 2^32. A
-/// colour is two words of two 16-bit lanes: "high" holds green (its upper lane, alpha's place, is unused), "low" blue
-/// and, above it, red, because then packing to XRGB8888 is 0xFF000000 | (high & 0xFF00) | (low >> 8 & 0xFF00FF).
+/// colour is two words of two 16-bit lanes: "high" holds green and, above it, alpha (unused where there are no
+/// fragments), "low" blue and, above it, red, because then packing to XRGB8888 is 0xFF000000 | (high & 0xFF00) |
+/// (low >> 8 & 0xFF00FF).
 struct Planes {
   std::uint32_t depth, depth_dx, depth_dy;
-  std::uint32_t high, low;            // kConstant: high is the packed pixel, the rest unused
+  std::uint32_t high, low;            // kConstant: high is the packed pixel, the rest unused; of fragments both words
+                                      // hold channels, 0..255 in each lane
   std::uint32_t high_dx, low_dx;      // per pixel to the right, lane by lane modulo 2^16
   std::uint32_t high_dy, low_dy;      // per pixel down
 };
@@ -55,13 +69,21 @@ struct alignas(64) SmallTriangle {
 static_assert(sizeof(SmallTriangle) == 64);
 inline constexpr std::uint16_t kClippedBox = 0x8000;
 
-/// Follows a SmallTriangle of Shading::kPerspective. Planes of u = 1/w and of colour * u at the origin pixel, scaled so
-/// that the largest u is 1.
+/// Follows a SmallTriangle of Shading::kPerspective, or its TexturePlanes. Planes of u = 1/w and of colour * u at the
+/// origin pixel, scaled so that the largest u is 1.
 struct alignas(64) PerspectivePlanes {
   float value[4], dx[4], dy[4];       // u, red, green, blue
   float unused[4];
 };
 static_assert(sizeof(PerspectivePlanes) == 64);
+
+/// Follows a SmallTriangle of fragments. Planes of u = 1/w and of s, t and alpha times u at the origin pixel, u scaled
+/// as in PerspectivePlanes.
+struct alignas(64) TexturePlanes {
+  float value[4], dx[4], dy[4];       // u, s, t, alpha; alpha is used by kPerspective alone
+  Shading shading;                    // of colours and alpha
+};
+static_assert(sizeof(TexturePlanes) == 64);
 
 /// A triangle larger than that. Set-up is done once; each tile derives a tile-local form from it by additions.
 struct alignas(64) BigTriangle {
@@ -78,13 +100,24 @@ struct alignas(64) BigTriangle {
 };
 static_assert(sizeof(BigTriangle) == 320);
 
+/// Follows a BigTriangle of Shading::kFragment.
+struct alignas(64) BigTexture {
+  double value[4], dx[4], dy[4];      // u, s, t, alpha, as in TexturePlanes, at (from_x, from_y)
+  std::uint64_t alpha, alpha_dx, alpha_dy;  // as BigTriangle::plane
+  Shading shading;                    // of colours and alpha
+  std::uint32_t constant_low;         // kConstant: Planes::low; high is in constant_pixel
+};
+static_assert(sizeof(BigTexture) == 128);
+
 inline constexpr std::uint32_t kSlotBytes = 64;
+inline constexpr std::uint32_t kBigSlots = sizeof(BigTriangle) / kSlotBytes,
+                               kBigTextureSlots = sizeof(BigTexture) / kSlotBytes;
 struct alignas(kSlotBytes) Slot {
   std::byte bytes[kSlotBytes];
 };
 
 /// An entry of a tile's list: kind in the top 3 bits, slot of the record (or number of the clear) below.
-enum class EntryKind : std::uint32_t { kSmall = 0, kBig = 3, kClear = 4 };  // kSmall + Shading
+enum class EntryKind : std::uint32_t { kSmall = 0, kBig = 3, kClear = 4, kFragment = 5 };  // kSmall + Shading
 inline constexpr std::uint32_t kEntryKindShift = 29;
 inline constexpr std::uint32_t kEntrySlotMask = (1u << kEntryKindShift) - 1;
 

@@ -60,6 +60,30 @@ struct Worker {
   std::uint32_t* colour = nullptr;  // kTilePixels each, in blocks
   std::uint32_t* depth = nullptr;
   std::uint64_t pixels_tested = 0;
+  std::uint64_t texels_fetched = 0;
+  std::uint64_t pixels_blended = 0;
+};
+
+/// A worker's vertices as one draw uses them: where it makes fragments, fewer, with their extras behind.
+struct VertexStore {
+  Vertex* vertices;
+  VertexExtra* extras;  // nullptr: none
+  std::uint32_t capacity;
+
+  VertexStore(const DrawSetup& draw, const Worker& worker)
+      : vertices(worker.vertices), extras(nullptr), capacity(worker.vertex_capacity) {
+    if (!draw.fragments) return;
+    capacity = static_cast<std::uint32_t>(std::size_t{capacity} * sizeof(Vertex) /
+                                          (sizeof(Vertex) + sizeof(VertexExtra)));
+    extras = reinterpret_cast<VertexExtra*>(vertices + capacity);
+  }
+
+  /// Of a vertex here or of a PlacedVertex.
+  const VertexExtra& extra_of(const Vertex& v) const {
+    const auto offset = reinterpret_cast<std::uintptr_t>(&v) - reinterpret_cast<std::uintptr_t>(vertices);
+    const std::size_t place = offset / sizeof(Vertex);
+    return place < capacity ? extras[place] : reinterpret_cast<const PlacedVertex&>(v).extra;
+  }
 };
 
 struct Round {

@@ -85,6 +85,24 @@ template <class To, class From>
 #endif
 }
 
+/// Words at `offset` bytes from base; every lane's lies in memory.
+[[gnu::always_inline]] inline U32 gather_words(const std::byte* base, I32 offset) {
+#if USUZUMI_KERNEL_LANES == 16
+  // Masked, with all lanes: the plain one is built on a vector that gcc 12 warns is not initialized.
+  return bits_as<U32>(_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xFFFF, bits_as<__m512i>(offset), base, 1));
+#elif USUZUMI_KERNEL_LANES == 8
+  return bits_as<U32>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base), bits_as<__m256i>(offset), 1));
+#else
+  U32 words{};
+  for (int l = 0; l < kLanes; ++l) {
+    std::uint32_t word;
+    std::memcpy(&word, base + offset[l], sizeof word);
+    words[l] = word;
+  }
+  return words;
+#endif
+}
+
 /// Two 16-bit values in one word, as the lanes of I16 hold them.
 [[gnu::always_inline]] inline std::uint32_t pair(std::int32_t low, std::int32_t high) {
   return (static_cast<std::uint32_t>(low) & 0xFFFFu) | static_cast<std::uint32_t>(high) << 16;

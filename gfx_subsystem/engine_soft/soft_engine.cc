@@ -28,7 +28,7 @@ TileGrid grid_of(std::uint32_t width, std::uint32_t height) {
 }
 
 /// A pool in which every triangle fits: its record, a fresh block in every tile.
-std::uint32_t minimum_slots(std::uint32_t tiles) { return tiles + sizeof(BigTriangle) / kSlotBytes; }
+std::uint32_t minimum_slots(std::uint32_t tiles) { return tiles + kBigSlots + kBigTextureSlots; }
 
 /// The tables' sizes for a given amount of memory.
 struct Layout {
@@ -95,7 +95,9 @@ ExecutionReport SoftEngine::do_execute(std::span<const std::uint32_t> list, BusM
   finish_round();
   for (Worker& w : workers_) {
     counters_.pixels_tested += w.pixels_tested;
-    w.pixels_tested = 0;
+    counters_.texels_fetched += w.texels_fetched;
+    counters_.pixels_blended += w.pixels_blended;
+    w.pixels_tested = w.texels_fetched = w.pixels_blended = 0;
   }
   report.counters = counters_;
   return report;

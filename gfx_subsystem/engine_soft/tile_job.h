@@ -65,9 +65,16 @@ inline void clear_in_place(const Round& r, const TileExtent& extent, std::uint32
   });
 }
 
+/// Counts what a draw of fragments costs besides.
+inline std::uint64_t count_fragments(const DrawSetup& d, std::uint64_t covered, Worker& worker) {
+  worker.texels_fetched += covered * d.texels_per_pixel;
+  worker.pixels_blended += d.blend ? covered : 0;
+  return covered;
+}
+
 template <bool kRgb565>
 std::uint64_t raster_entries(const Round& r, const TileExtent& extent, const TileBuffers& buffers, std::uint32_t tile,
-                             std::uint32_t jobs) {
+                             std::uint32_t jobs, Worker& worker) {
   std::uint64_t covered = 0;
   for_each_entry(r, tile, jobs, [&](std::uint32_t entry) {
     const std::uint32_t slot = entry & kEntrySlotMask;
@@ -84,7 +91,17 @@ std::uint64_t raster_entries(const Round& r, const TileExtent& extent, const Til
       case 2: small(std::integral_constant<Shading, Shading::kPerspective>{}); break;
       case static_cast<std::uint32_t>(EntryKind::kBig): {
         const auto& t = r.pool->at<BigTriangle>(slot);
-        covered += raster_big<kRgb565>(r.draws[t.draw], t, extent.origin, buffers);
+        covered += count_fragments(r.draws[t.draw],
+                                   raster_big<kRgb565>(r.draws[t.draw], t, extent.origin, buffers), worker);
+        break;
+      }
+      case static_cast<std::uint32_t>(EntryKind::kFragment): {
+        const auto& t = r.pool->at<SmallTriangle>(slot);
+        const DrawSetup& d = r.draws[t.draw & ~kClippedBox];
+        const std::uint32_t drawn = with_fetch(d, [&](auto fetch) {
+          return raster_small_fragments<decltype(fetch)::value>(d, t, extent.origin, buffers);
+        });
+        covered += count_fragments(d, drawn, worker);
         break;
       }
       default: {
@@ -112,8 +129,8 @@ void run_tile(const Round& r, Worker& worker, std::uint32_t tile, std::uint32_t 
   const TileBuffers buffers{worker.colour, worker.depth};
   if (!prologue.colour_filled) load_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth && !prologue.depth_filled) load_plane(depth_plane(r), extent, buffers.depth);
-  worker.pixels_tested += r.target.rgb565 ? raster_entries<true>(r, extent, buffers, tile, jobs)
-                                          : raster_entries<false>(r, extent, buffers, tile, jobs);
+  worker.pixels_tested += r.target.rgb565 ? raster_entries<true>(r, extent, buffers, tile, jobs, worker)
+                                          : raster_entries<false>(r, extent, buffers, tile, jobs, worker);
   store_plane(colour_plane(r), extent, buffers.colour);
   if (r.uses_depth) store_plane(depth_plane(r), extent, buffers.depth);
   finish_streaming();

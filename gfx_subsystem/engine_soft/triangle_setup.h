@@ -48,8 +48,8 @@ struct Candidate {
 
 class TriangleSetup {
  public:
-  TriangleSetup(const DrawSetup& draw, std::uint32_t draw_index, Binner& binner)
-      : d_(draw), draw_index_(static_cast<std::uint16_t>(draw_index)), binner_(binner),
+  TriangleSetup(const DrawSetup& draw, std::uint32_t draw_index, Binner& binner, const VertexStore& store)
+      : d_(draw), draw_index_(static_cast<std::uint16_t>(draw_index)), binner_(binner), store_(store),
         clip_first_{draw.clip.x0, draw.clip.y0, 0, 0}, clip_end_{draw.clip.x1, draw.clip.y1, 0, 0} {}
 
   /// Fills in `out` and tells whether it is a candidate; without branches, since which triangles are is a matter of
@@ -83,16 +83,26 @@ class TriangleSetup {
 
   /// Flat triangles take the colour of `provoking`. False: the pool is exhausted, nothing binned.
   [[gnu::always_inline]] bool put(const Candidate& c, const Vertex& provoking) {
-    const Shading shading = choose_shading(*c.v[0], *c.v[1], *c.v[2]);
-    return c.small ? put_small(c, shading, provoking) : put_big(c, shading, provoking);
+    if (d_.fragments) return put_fragments(c, provoking);
+    const Shading shading = choose_shading(*c.v[0], *c.v[1], *c.v[2], 0);
+    return c.small ? put_small<false>(c, shading, provoking) : put_big<false>(c, shading, provoking);
   }
 
  private:
-  [[gnu::always_inline]] Shading choose_shading(const Vertex& a, const Vertex& b, const Vertex& c) const {
+  [[gnu::noinline]] bool put_fragments(const Candidate& c, const Vertex& provoking) {
+    const Shading shading = choose_shading(
+        *c.v[0], *c.v[1], *c.v[2], range(alpha_of(*c.v[0]), alpha_of(*c.v[1]), alpha_of(*c.v[2])));
+    return c.small ? put_small<true>(c, shading, provoking) : put_big<true>(c, shading, provoking);
+  }
+
+  static float range(float p, float q, float r) { return std::max({p, q, r}) - std::min({p, q, r}); }
+  float alpha_of(const Vertex& v) const { return store_.extra_of(v).alpha; }
+
+  [[gnu::always_inline]] Shading choose_shading(const Vertex& a, const Vertex& b, const Vertex& c,
+                                                float alpha_range) const {
     if (d_.flat) return Shading::kConstant;
-    const auto range = [](float p, float q, float r) { return std::max({p, q, r}) - std::min({p, q, r}); };
-    const float colour_range =
-        std::max({range(a.red, b.red, c.red), range(a.green, b.green, c.green), range(a.blue, b.blue, c.blue)});
+    const float colour_range = std::max({range(a.red, b.red, c.red), range(a.green, b.green, c.green),
+                                         range(a.blue, b.blue, c.blue), alpha_range});
     if (colour_range == 0) return Shading::kConstant;
     const float u_min = std::min({a.u, b.u, c.u}), u_max = std::max({a.u, b.u, c.u});
     return affine_is_exact_enough(u_min, u_max, colour_range) ? Shading::kAffine : Shading::kPerspective;
@@ -142,10 +152,46 @@ class TriangleSetup {
     F64x4 at0;
     Steps step;
   };
+  static double scale_of_u(const Candidate& in) {
+    return 1.0 / static_cast<double>(std::max({in.v[0]->u, in.v[1]->u, in.v[2]->u}));
+  }
   static PerspectiveSetup perspective(const Candidate& in) {
-    const double u_scale = 1.0 / static_cast<double>(std::max({in.v[0]->u, in.v[1]->u, in.v[2]->u}));
+    const double u_scale = scale_of_u(in);
     const F64x4 at0 = over_w(*in.v[0], u_scale);
     return {at0, steps(in, at0, over_w(*in.v[1], u_scale), over_w(*in.v[2], u_scale))};
+  }
+
+  /// The repeats of the image before the one in which v lies; an even number of a mirrored one.
+  static double whole_repeats(float v, command::TextureWrap wrap) {
+    switch (wrap) {
+      case command::TextureWrap::kRepeat: return std::floor(static_cast<double>(v));
+      case command::TextureWrap::kMirror: return 2 * std::floor(static_cast<double>(v) / 2);
+      case command::TextureWrap::kClamp: break;
+    }
+    return 0;
+  }
+
+  /// u, s, t and alpha, each times u. s and t begin in the first repeat at the first corner, where singles are finest.
+  PerspectiveSetup texture(const Candidate& in) const {
+    const double u_scale = scale_of_u(in);
+    const VertexExtra& first = store_.extra_of(*in.v[0]);
+    const double s0 = whole_repeats(first.s, d_.texture.wrap_s), t0 = whole_repeats(first.t, d_.texture.wrap_t);
+    const auto at = [&](const Vertex& v) {
+      const VertexExtra& e = store_.extra_of(v);
+      const double u = static_cast<double>(v.u) * u_scale;
+      return F64x4{u, (e.s - s0) * u, (e.t - t0) * u, e.alpha * u};
+    };
+    const F64x4 at0 = at(*in.v[0]);
+    return {at0, steps(in, at0, at(*in.v[1]), at(*in.v[2]))};
+  }
+
+  /// Alpha in lane units, half included.
+  PerspectiveSetup affine_alpha(const Candidate& in) const {
+    const auto at = [&](const Vertex& v) { return F64x4{alpha_of(v), 0, 0, 0}; };
+    const F64x4 at0 = at(*in.v[0]);
+    Steps s = steps(in, at0, at(*in.v[1]), at(*in.v[2]));
+    flatten_steep(s);
+    return {at0 + F64x4{128, 0, 0, 0}, s};
   }
 
   std::uint32_t constant_pixel(const Vertex& v) const {
@@ -156,6 +202,11 @@ class TriangleSetup {
     if (d_.rgb565) return (r & 0xF800) | (g & 0xFC00) >> 5 | (b & 0xF800) >> 11;
     return 0xFF000000u | (r & 0xFF00) << 8 | (g & 0xFF00) | (b & 0xFF00) >> 8;
   }
+
+  /// The channels of a constant colour of fragments: green and alpha, or blue and red.
+  std::uint32_t constant_high(const Vertex& v) const { return pair(channel(v.green), channel(alpha_of(v))); }
+  static std::uint32_t constant_low(const Vertex& v) { return pair(channel(v.blue), channel(v.red)); }
+  static std::int32_t channel(float lane_units) { return (round_to_int(lane_units) + 128) >> 8; }
 
   [[gnu::always_inline]] static TileRange tiles(const PixelRect& box) {
     return {box.x0 / kTileSize, box.y0 / kTileSize, (box.x1 - 1) / kTileSize, (box.y1 - 1) / kTileSize};
@@ -170,6 +221,7 @@ class TriangleSetup {
   }
 
   /// Four words of a SmallTriangle at a time.
+  template <bool kFragments>
   [[gnu::always_inline]] bool put_small(const Candidate& in, Shading shading, const Vertex& provoking) {
     const std::int32_t origin_x = in.box.x0 * kSubpixelOne + kSubpixelHalf,
                        origin_y = in.box.y0 * kSubpixelOne + kSubpixelHalf;
@@ -185,7 +237,7 @@ class TriangleSetup {
     if (misses_small_box(in.box, edge, a, b)) return true;
 
     const TileRange range = tiles(in.box);
-    const std::uint32_t slots = shading == Shading::kPerspective ? 2 : 1;
+    const std::uint32_t slots = (kFragments ? 2 : 1) + (shading == Shading::kPerspective ? 1 : 0);
     if (!binner_.reserve(slots, range)) return false;
     const std::uint32_t slot = binner_.take_record(slots);
     std::byte* record = reinterpret_cast<std::byte*>(&binner_.record<SmallTriangle>(slot));
@@ -207,15 +259,35 @@ class TriangleSetup {
                           static_cast<std::uint32_t>(draw_index_ | (in.box_cuts ? kClippedBox : 0)) << 16),
                       0, 0};
     if (shading == Shading::kConstant) {
-      store(record + 32, I32x4{static_cast<std::int32_t>(constant_pixel(provoking)), 0, 0, 0});
+      if constexpr (kFragments)
+        store(record + 32, I32x4{static_cast<std::int32_t>(constant_high(provoking)),
+                                 static_cast<std::int32_t>(constant_low(provoking)), 0, 0});
+      else store(record + 32, I32x4{static_cast<std::int32_t>(constant_pixel(provoking)), 0, 0, 0});
       store(record + 48, __builtin_shufflevector(place, place, 0, 0, 0, 1));
     } else {
       store(record + 32, __builtin_shufflevector(lanes_of(base), lanes_of(dx), 0, 1, 4, 5));
       store(record + 48, __builtin_shufflevector(lanes_of(dy), place, 0, 1, 4, 5));
     }
-    if (shading == Shading::kPerspective) put_perspective(in, from_x, from_y, slot + 1);
-    binner_.append(range, entry(EntryKind::kSmall, shading, slot));
+    if constexpr (kFragments) {
+      Planes& planes = binner_.record<SmallTriangle>(slot).planes;
+      if (shading == Shading::kAffine) put_alpha(in, from_x, from_y, planes);
+      TexturePlanes& t = binner_.record<TexturePlanes>(slot + 1);
+      put_planes(texture(in), from_x, from_y, t);
+      t.shading = shading;
+    }
+    if (shading == Shading::kPerspective)
+      put_planes(perspective(in), from_x, from_y, binner_.record<PerspectivePlanes>(slot + (kFragments ? 2 : 1)));
+    binner_.append(range, kFragments ? entry(EntryKind::kFragment, Shading::kConstant, slot)
+                                     : entry(EntryKind::kSmall, shading, slot));
     return true;
+  }
+
+  void put_alpha(const Candidate& in, double from_x, double from_y, Planes& planes) const {
+    const PerspectiveSetup a = affine_alpha(in);
+    const auto lane = [](F64x4 v) { return static_cast<std::uint32_t>(low_words(round_to_words(v))[0]) << 16; };
+    planes.high |= lane(a.at0 + a.step.dx * from_x + a.step.dy * from_y);
+    planes.high_dx |= lane(a.step.dx);
+    planes.high_dy |= lane(a.step.dy);
   }
 
   /// True when the triangle covers none of the pixels of a box of up to 2 x 2: about every third of the tiniest ones.
@@ -233,17 +305,17 @@ class TriangleSetup {
     return bits_as<I32x4>(__builtin_shufflevector(halves, I16x8{}, 2, 8, 4, 0, 8, 8, 8, 8));
   }
 
-  [[gnu::noinline]] void put_perspective(const Candidate& in, double from_x, double from_y, std::uint32_t slot) {
-    PerspectivePlanes& planes = binner_.record<PerspectivePlanes>(slot);
-    const PerspectiveSetup p = perspective(in);
+  template <class Record>
+  [[gnu::noinline]] static void put_planes(const PerspectiveSetup& p, double from_x, double from_y, Record& planes) {
     const F64x4 base = p.at0 + p.step.dx * from_x + p.step.dy * from_y;
     store(planes.value, __builtin_convertvector(base, F32x4));
     store(planes.dx, __builtin_convertvector(p.step.dx, F32x4));
     store(planes.dy, __builtin_convertvector(p.step.dy, F32x4));
   }
 
+  template <bool kFragments>
   [[gnu::noinline]] bool put_big(const Candidate& in, Shading shading, const Vertex& provoking) {
-    constexpr std::uint32_t kSlots = sizeof(BigTriangle) / kSlotBytes;
+    constexpr std::uint32_t kSlots = kBigSlots + (kFragments ? kBigTextureSlots : 0);
     const TileRange range = tiles(in.box);
     if (!binner_.reserve(kSlots, range)) return false;
     const std::uint32_t slot = binner_.take_record(kSlots);
@@ -265,10 +337,9 @@ class TriangleSetup {
     const Steps s = attribute_steps(in);
     const F64x4 base = attributes(v0) + halves();
     for (int k = 0; k < 4; ++k) {
-      constexpr double kOne = 65536;  // |step| < 2^42, so 2^58: no overflow
-      t.plane[k] = static_cast<std::uint64_t>(static_cast<std::int64_t>(base[k] * kOne));
-      t.plane_dx[k] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(s.dx[k] * kOne + 0.5)));
-      t.plane_dy[k] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(s.dy[k] * kOne + 0.5)));
+      t.plane[k] = plane_value(base[k]);
+      t.plane_dx[k] = plane_step(s.dx[k]);
+      t.plane_dy[k] = plane_step(s.dy[k]);
     }
     if (shading == Shading::kPerspective) {
       const PerspectiveSetup p = perspective(in);
@@ -276,11 +347,37 @@ class TriangleSetup {
       store(t.perspective_dx, p.step.dx);
       store(t.perspective_dy, p.step.dy);
     }
-    t.constant_pixel = constant_pixel(provoking);
     t.draw = draw_index_;
-    t.shading = static_cast<std::uint16_t>(shading);
+    t.shading = static_cast<std::uint16_t>(kFragments ? Shading::kFragment : shading);
+    if constexpr (kFragments) {
+      t.constant_pixel = constant_high(provoking);
+      put_big_texture(in, shading, provoking, binner_.record<BigTexture>(slot + kBigSlots));
+    } else {
+      t.constant_pixel = constant_pixel(provoking);
+    }
     binner_.append(range, entry(EntryKind::kBig, Shading::kConstant, slot));
     return true;
+  }
+
+  void put_big_texture(const Candidate& in, Shading shading, const Vertex& provoking, BigTexture& out) const {
+    const PerspectiveSetup p = texture(in);
+    store(out.value, p.at0);
+    store(out.dx, p.step.dx);
+    store(out.dy, p.step.dy);
+    const PerspectiveSetup a = affine_alpha(in);
+    out.alpha = plane_value(a.at0[0]);
+    out.alpha_dx = plane_step(a.step.dx[0]);
+    out.alpha_dy = plane_step(a.step.dy[0]);
+    out.shading = shading;
+    out.constant_low = constant_low(provoking);
+  }
+
+  /// A big triangle's plane, in 1/65536 unit. |step| < 2^42, so 2^58: no overflow.
+  static std::uint64_t plane_value(double v) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(v * 65536));
+  }
+  static std::uint64_t plane_step(double v) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v * 65536 + 0.5)));
   }
 
   static constexpr std::int32_t kMaxSmallExtent = (kMaxSpan - 1) * kSubpixelOne;
@@ -288,6 +385,7 @@ class TriangleSetup {
   const DrawSetup& d_;
   std::uint16_t draw_index_;
   Binner& binner_;
+  const VertexStore& store_;
   I32x4 clip_first_, clip_end_;
 };
 

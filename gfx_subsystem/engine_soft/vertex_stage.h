@@ -133,5 +133,25 @@ void transform_vertices(const DrawSetup& d, std::uint32_t count, Source source, 
   }
 }
 
+/// Within the limit; 0 where not a number.
+inline float held_coordinate(float v) {
+  return v != v ? 0.0f : std::clamp(v, -kMaxTextureCoordinate, kMaxTextureCoordinate);
+}
+
+/// As transform_vertices(): what the fragments of the same vertices need.
+template <class Source>
+void fetch_extras(const DrawSetup& d, std::uint32_t count, Source source, VertexExtra* out) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t vertex = source(i);
+    TexCoord c;
+    if (d.texture_coordinates != nullptr)
+      c = fetch<TexCoord>(d.texture_coordinates, d.streams.texture_coordinate_stride, vertex, 0);
+    const std::uint32_t colour = d.colours == nullptr
+                                     ? d.streams.constant_colour.bits
+                                     : fetch<std::uint32_t>(d.colours, d.streams.colour_stride, vertex, 0);
+    out[i] = {held_coordinate(c.s), held_coordinate(c.t), static_cast<float>((colour >> 24) << 8)};
+  }
+}
+
 }  // namespace
 }  // namespace usuzumi::gfx::soft::USUZUMI_KERNEL
