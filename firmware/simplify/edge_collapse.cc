@@ -65,6 +65,16 @@ struct Merge {
     }
     return kNoCorner;
   }
+
+  // When all the corners have been appended.
+  void finish(CollapsedEdge& result) {
+    append(kNoCorner);
+    surface.vertices[remove].first_corner = kNoCorner;
+    for (std::uint32_t i = 0; i < n.apex_count; ++i) {
+      const Corner chosen = join_edges(n.apexes[i], representatives_lost[i]);
+      if (chosen != kNoCorner) result.uncosted[result.uncosted_count++] = chosen;
+    }
+  }
 };
 
 }  // namespace
@@ -108,13 +118,33 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
     if (result.first_from_removed == kNoCorner) result.first_from_removed = c;
     merge.append(c);
   }
-  merge.append(kNoCorner);
-  surface.vertices[merge.remove].first_corner = kNoCorner;
+  merge.finish(result);
+  return result;
+}
 
-  for (std::uint32_t i = 0; i < n.apex_count; ++i) {
-    const Corner chosen = merge.join_edges(n.apexes[i], merge.representatives_lost[i]);
-    if (chosen != kNoCorner) result.uncosted[result.uncosted_count++] = chosen;
+CollapsedEdge collapse_half_edge(Surface& surface, const Neighbourhood& n) {
+  Merge merge{.surface = surface, .n = n, .keep = n.b, .remove = n.a};
+  CollapsedEdge result;
+  result.vertex = n.b;
+  const Corner first_removed = surface.first_corner(n.a);
+  for (Corner c = surface.first_corner(n.b), next; c != kNoCorner; c = next) {
+    next = surface.next_corner_of(c);
+    const Corner out = next_in_face(c), in = previous_in_face(c);
+    const bool out_removed = surface.vertex_at(out) == n.a;
+    if (!out_removed && surface.vertex_at(in) != n.a) {
+      merge.append(c);
+      continue;
+    }
+    const Corner at_removed = out_removed ? out : in;
+    result.removed[result.faces_removed++] = {c >> 2, surface.indices[corner_index(c)],
+                                              surface.indices[corner_index(at_removed)]};
+    merge.remove_face(c, at_removed, out_removed ? in : out);
   }
+  for (Corner c = first_removed, next; c != kNoCorner; c = next) {
+    next = surface.next_corner_of(c);
+    if (!surface.is_dead(c >> 2)) merge.append(c);
+  }
+  merge.finish(result);
   return result;
 }
 

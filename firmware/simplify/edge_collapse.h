@@ -43,7 +43,7 @@ struct RemovedFace {
 };
 
 struct CollapsedEdge {
-  std::uint32_t vertex = 0;             // the one that stays: the lower number
+  std::uint32_t vertex = 0;             // the one that stays: by collapse_edge the lower number
   std::uint32_t faces_removed = 0;
   RemovedFace removed[kMostFacesOnEdge];
   WedgePairs pairs;
@@ -57,5 +57,9 @@ struct CollapsedEdge {
 /// gets. `vertex_of_wedge` is the surface's, writable; null where every wedge is its own vertex.
 CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
                             const Neighbourhood& n, AttributeShares shares);
+
+/// Merges `n.a` into `n.b`, which stays as it is. The caller has given the corners at `n.a`, but for those of the edge's
+/// faces, wedges of `n.b`. `pairs` and `first_from_removed` stay empty.
+CollapsedEdge collapse_half_edge(Surface& surface, const Neighbourhood& n);
 
 }  // namespace usuzumi::firmware

@@ -81,7 +81,9 @@ void write_surface(WorkingMesh& mesh, WorkingSurface& from) {
     for (; group < mesh.groups.size() && w == mesh.groups[group].vertex_end; ++group)
       mesh.groups[group].vertex_end = used;
     if (wedges[w].mark == kUnused) continue;
-    mesh.positions[used] = wedges[from.seam_map == nullptr ? w : from.seam_map[w]].position * (1.0f / from.scale);
+    mesh.positions[used] =
+        from.positions_kept ? mesh.positions[w]
+                            : wedges[from.seam_map == nullptr ? w : from.seam_map[w]].position * (1.0f / from.scale);
     if (!mesh.normals.empty()) mesh.normals[used] = mesh.normals[w];
     if (!mesh.colours.empty()) mesh.colours[used] = mesh.colours[w];
     if (!mesh.texture_coordinates.empty()) mesh.texture_coordinates[used] = mesh.texture_coordinates[w];

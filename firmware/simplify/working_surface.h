@@ -25,6 +25,7 @@ struct WorkingSurface {
   WedgeAttributes attributes;
   std::uint32_t* seam_map = nullptr;  // vertex_of_wedge where some vertex has several wedges
   std::uint32_t live_faces = 0;
+  bool positions_kept = false;  // no vertex was moved: write_surface() keeps the mesh's own positions, to the bit
   float scale = 1;  // from model units to those of `places`: a power of two that brings the mesh's extent near 4096
 };
 

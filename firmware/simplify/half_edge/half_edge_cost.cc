@@ -1,0 +1,63 @@
+#include "firmware/simplify/half_edge/half_edge_cost.h"
+
+namespace usuzumi::firmware {
+namespace {
+
+float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
+
+}  // namespace
+
+void HalfEdgeCosts::start() {
+  const Surface& s = *surface_;
+  Vec3 low, high;
+  bool any = false;
+  for (std::uint32_t v = 0; v < s.vertex_count; ++v) {
+    areas_[v] = 0;
+    if (s.first_corner(v) == kNoCorner) continue;
+    const Vec3 p = s.position(v);
+    if (!any) low = high = p;
+    any = true;
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
+  }
+  max_dist_ = 2 * dot(high - low, high - low);
+  for (std::uint32_t face = 0; face < s.face_count; ++face) {
+    if (s.is_dead(face)) continue;
+    const std::uint32_t a = s.vertex_at(face * 4), b = s.vertex_at(face * 4 + 1), c = s.vertex_at(face * 4 + 2);
+    const Vec3 p = s.position(a);
+    const float area = 0.5f * length(cross(s.position(b) - p, s.position(c) - p));
+    areas_[a] += area;
+    areas_[b] += area;
+    areas_[c] += area;
+  }
+}
+
+// Quadrics are relative to their vertices: Qs(vt) is Qs at the edge's vector, Qt(vt) its constant.
+HalfEdge HalfEdgeCosts::cheapest(Corner edge, std::uint32_t refused) const {
+  const Surface& s = *surface_;
+  const std::uint32_t a = s.vertex_at(edge), b = s.vertex_at(next_in_face(edge));
+  const Vec3 e = s.position(b) - s.position(a);
+  const Quadric& qa = s.vertices[a].quadric;
+  const Quadric& qb = s.vertices[b].quadric;
+  const HalfEdge forward{.from = a, .to = b, .dist = at_least_zero(evaluate(qa, e) + qb.c), .forward = true};
+  const HalfEdge backward{.from = b, .to = a, .dist = at_least_zero(evaluate(qb, e * -1.0f) + qa.c)};
+  if (refused != 0 || seams_->is_seam(a) || seams_->is_seam(b))
+    return cheapest_at_seam(forward, backward, edge, refused);
+  HalfEdge least = forward.dist <= backward.dist ? forward : backward;
+  least.key = edge_key(least.dist, edge);
+  return least;
+}
+
+HalfEdge HalfEdgeCosts::cheapest_at_seam(HalfEdge forward, HalfEdge backward, Corner edge,
+                                         std::uint32_t refused) const {
+  for (HalfEdge* way : {&forward, &backward}) {
+    if ((refused & (way->forward ? kForwardRefused : kBackwardRefused)) != 0) continue;
+    const SeamRelation r = seams_->relation(way->from, way->to);
+    if (r.leaves_border) continue;
+    way->key = edge_key(half_edge_cost(way->dist, alpha(way->from, way->to), r), edge);
+    if (r.is_penalised()) way->key |= kPenalised;
+  }
+  return forward.key <= backward.key ? forward : backward;
+}
+
+}  // namespace usuzumi::firmware

@@ -1,0 +1,36 @@
+// Which wedges of vt take the place of vs's wedges when vs goes: CN101231761A, steps 2, 3 and 5 of a collapse.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/simplify/collapse_rules.h"
+#include "firmware/simplify/simplify.h"
+#include "firmware/simplify/surface.h"
+
+namespace usuzumi::firmware {
+
+/// A wedge of vs that a removed face names is followed by the wedge of vt that the face names: they are continuous, and
+/// so is, across the triangles that share the wedge of vs, everything around it. Where removed faces disagree, the
+/// first of vs's list decides. A wedge of vs that no removed face names is followed by the lowest wedge of vt that is of
+/// the same material group.
+class WedgeMatching {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+  WedgeMatching(const Surface& surface, std::span<const MaterialGroup> groups, std::uint32_t from, std::uint32_t to);
+
+  /// kNone where vt has no wedge of the group.
+  std::uint32_t successor(std::uint32_t wedge) const;
+
+ private:
+  std::uint32_t lowest_of_group(std::uint32_t wedge) const;
+
+  const Surface& surface_;
+  const std::span<const MaterialGroup> groups_;
+  const std::uint32_t to_;
+  std::uint32_t count_ = 0;
+  std::uint32_t from_[kMostFacesOnEdge], successor_[kMostFacesOnEdge];
+};
+
+}  // namespace usuzumi::firmware
