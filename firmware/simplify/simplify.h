@@ -46,7 +46,9 @@ enum class Method : std::uint8_t {
 };
 inline constexpr std::uint32_t kMethodCount = 4;
 /// Whether every vertex of a thinned mesh is one of the mesh as given, in position and attributes.
-constexpr bool keeps_vertices(Method method) { return method == Method::kHalfEdge || method == Method::kVertexDeletion; }
+constexpr bool keeps_vertices(Method method) {
+  return method == Method::kHalfEdge || method == Method::kVertexDeletion;
+}
 
 enum class Placement : std::uint8_t {
   kOptimal,  // where the quadric is least, shifted so that the volume stays (by twice the quadric's error at most);
@@ -124,6 +126,7 @@ struct SimplifyOutcome {
 /// Thins `mesh` by `options.method` down to `options.target_faces`. On return the mesh's counts are the thinned ones
 /// and its spans' first elements hold the result, unreferenced vertices removed, original order kept.
 /// kResourceExhausted: `scratch` is too small. kUnsupported: more than 2^28 - 1 faces. The mesh is then as it was.
+/// kResourceExhausted too where `options.log` was full; the mesh is then whole, and thinned by what was done before.
 /// `scratch` is left as it was found.
 Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& options, Arena& scratch);
 

@@ -15,6 +15,7 @@
 #include "firmware/simplify/collapse_rules.h"
 #include "firmware/simplify/edge_collapse.h"
 #include "firmware/simplify/initial_quadrics.h"
+#include "firmware/simplify/log_recorder.h"
 #include "firmware/simplify/qem/edge_candidates.h"
 #include "firmware/simplify/qem/edge_cost.h"
 #include "firmware/simplify/qem/edge_queue.h"
@@ -48,12 +49,14 @@ Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
 class QemSimplifier {
  public:
   QemSimplifier(WorkingMesh& mesh, const SimplifyOptions& options)
-      : mesh_(mesh), options_(options), rules_(surface_), candidates_({}), queue_({}) {}
+      : mesh_(mesh), options_(options), recorder_(options.log, working_), rules_(surface_), candidates_({}),
+        queue_({}) {}
 
   Result<SimplifyOutcome> run(Arena& scratch) {
     if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
     build_surface(mesh_, memory_, working_);
     faces_ = working_.live_faces;
+    recorder_.begin();
     if (faces_ > options_.target_faces) {
       set_initial_quadrics(surface_, memory_.texture_places.empty() ? nullptr : memory_.texture_places.data());
       texture_.set_up(surface_, working_.attributes.texture_coordinates, memory_.texture_places, texture_fits_);
@@ -61,6 +64,7 @@ class QemSimplifier {
       outcome_.max_error *= 1.0f / working_.scale;
     }
     write_surface(mesh_, working_);
+    if (recorder_.full()) return log_full_status();
     return outcome_;
   }
 
@@ -92,6 +96,7 @@ class QemSimplifier {
   SurfaceMemory memory_;
   WorkingSurface working_;
   Surface& surface_ = working_.surface;
+  LogRecorder recorder_;
   CollapseRules rules_;
   TextureError texture_;
   std::span<TextureFit> texture_fits_;
@@ -116,7 +121,7 @@ bool QemSimplifier::carve(Arena& scratch) {
 }
 
 void QemSimplifier::collapse_to_target() {
-  while (faces_ > options_.target_faces) {
+  while (faces_ > options_.target_faces && !recorder_.full()) {
     if (candidates_.size() == 0 && !find_candidates()) {
       outcome_.stop = StopReason::kNoCollapseAllowed;
       return;
@@ -139,7 +144,7 @@ void QemSimplifier::run_pass(std::size_t rank) {
     fetch_region(queue_.slots().first(count));
     queue_.start(count);
     while (!queue_.empty()) {
-      if (faces_ <= options_.target_faces) return;
+      if (faces_ <= options_.target_faces || recorder_.full()) return;
       collapse_next();
     }
   }
@@ -278,6 +283,7 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   const float weight = weight_of(quadric);
   const float error = weight > 0 ? std::sqrt(quadric.c / weight) : 0.0f;
   if (error > outcome_.max_error) outcome_.max_error = error;
+  if (options_.log != nullptr) recorder_.record(collapsed);
 
   for (std::uint32_t i = 0; i < collapsed.uncosted_count; ++i) push_edge(collapsed.uncosted[i]);
   if (n.touches_refused) allow_again_around(v);

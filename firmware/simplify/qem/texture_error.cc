@@ -7,8 +7,8 @@ namespace {
 
 // How much a shift of the texture along the surface counts against the surface's own shift by the same length. The
 // length of a texture unit is the mean over the mesh, the root of the surface's area by the texture's, so that neither
-// the model's scale nor the texture's matters. Chosen by measuring drift and distance together: four times as much hardly
-// holds a texture better, and costs shape.
+// the model's scale nor the texture's matters. Chosen by measuring drift and distance together: four times as much
+// hardly holds a texture better, and costs shape.
 constexpr float kTextureWeight = 0.5f;
 
 // A face over which the texture runs this many times as fast as in the mean is one of bad coordinates, or a sliver, and
