@@ -25,13 +25,19 @@ Status Device::boot(const DeviceConfig& config) {
             static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(data->board().data()) - ports_.rom.data())};
   data_ = *data;
   ram_ = Arena(ports_.ram);
-  command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_.mesh_max()));
+  command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_));
   if (command_words_.empty())
     return {StatusCode::kResourceExhausted, "RAM has no room for the command list; meshes", data_.mesh_max()};
-  status = thinning_.begin(data_, ram_);
+  status = thinning_.begin(data_, ram_, rom_on_bus());
   if (status.ok()) status = engine_.probe();
   booted_ = status.ok();
   return status;
+}
+
+/// Whether the 3D engine reads all of the ROM.
+bool Device::rom_on_bus() const {
+  const BusAddress rom = ports_.bus.bus_address(ports_.rom.data());
+  return rom != 0 && rom % 4 == 0 && ports_.memory.read_window(rom, ports_.rom.size()).data() != nullptr;
 }
 
 /// Why the display has no rows for such a picture: it says so itself.
@@ -87,7 +93,7 @@ Status Device::draw_list(const View& view, const Lighting& lighting, FrameReport
   const Scanout& scanout = vram_.scanout;
   const FrameTarget target{scanout.picture[back_], scanout.stride_bytes,     scanout.format,
                            vram_.depth,            vram_.depth_stride_bytes, vram_.depth_format};
-  const auto list = write_scene(thinning_.copy(), view, lighting, target, ports_.bus, command_words_);
+  const auto list = write_scene(thinning_, view, lighting, target, ports_.bus, command_words_);
   if (!list.ok()) return list.status();
   ports_.clock.charge(CpuWork::kCommandWritten, list->size());
   Status status = engine_.start(ports_.bus.bus_address(list->data()), static_cast<std::uint32_t>(list->size()));

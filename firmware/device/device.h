@@ -94,6 +94,7 @@ class Device {
   std::uint64_t ram_peak_bytes() const;
 
  private:
+  bool rom_on_bus() const;
   Status refusal(const Scanout& wanted);
   /// The layout, in the formats asked for or in the next smaller ones that fit.
   Result<VramLayout> fit_vram(const DeviceConfig& config);

@@ -1,5 +1,7 @@
 #include "firmware/device/scene_commands.h"
 
+#include <cstring>
+
 namespace usuzumi::firmware {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::uint32_t words_of = ((1 + command::kPayloadWords<Packets>) + ...)
 constexpr std::uint32_t kFrameWords = words_of<command::SetColourTarget, command::SetDepthTarget, command::Clear,
                                                command::SetTransform, command::SetLight> +
                                       2;
-constexpr std::uint32_t kMeshWords = words_of<command::SetRasterState, command::SetVertexStreams, command::Draw>;
+constexpr std::uint32_t kDrawWords = words_of<command::SetRasterState, command::SetVertexStreams, command::Draw>;
 
 void put_frame_state(command::Writer& list, const View& view, const Lighting& lighting, const FrameTarget& target) {
   const bool depth = target.depth_format != command::DepthFormat::kNone;
@@ -24,46 +26,175 @@ void put_frame_state(command::Writer& list, const View& view, const Lighting& li
   list.put(command::SetLight{1, lighting.to_light, lighting.ambient, lighting.diffuse});
 }
 
-command::SetVertexStreams streams_of(const CopyMesh& mesh, BusAddress block) {
-  command::SetVertexStreams streams;
-  streams.vertex_count = mesh.vertex_count;
-  streams.positions = block;
-  if (mesh.normal_offset != 0xFFFFFFFF) streams.normals = block + mesh.normal_offset;
-  if (mesh.colour_offset != 0xFFFFFFFF) streams.colours = block + mesh.colour_offset;
-  streams.constant_colour = mesh.base_colour;
-  return streams;
+bool same(const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool blends(const MaterialView& material) { return material.alpha_mode == format::AlphaMode::kBlend; }
+
+command::SetFragmentState fragment_state_of(const MaterialView& material) {
+  switch (material.alpha_mode) {
+    case format::AlphaMode::kOpaque: break;
+    case format::AlphaMode::kMask: return {1, material.alpha_reference, command::BlendMode::kNone};
+    case format::AlphaMode::kBlend: return {0, 0, command::BlendMode::kAlpha};
+  }
+  return {};
 }
 
-void put_mesh(command::Writer& list, const CopyMesh& mesh, BusAddress block, bool depth) {
-  command::SetRasterState raster;
-  raster.cull = mesh.two_sided ? command::CullMode::kNone : command::CullMode::kBack;
-  raster.depth_test = depth ? 1 : 0;
-  raster.point_size = raster.line_width = kMarkSize;
-  list.put(raster);
-  list.put(streams_of(mesh, block));
-  command::Draw draw{mesh.topology, mesh.index_format, 0, 0, mesh.vertex_count};
-  if (mesh.index_format != command::IndexFormat::kNone) {
-    draw.index_address = block + mesh.index_offset;
-    draw.count = mesh.index_count;
+Status unreachable(const char* message, const MeshView& mesh) {
+  return {StatusCode::kFailedPrecondition, message, mesh.number};
+}
+
+/// Writes the draws, and of texture and fragment state what differs from what was written last.
+class SceneWriter {
+ public:
+  SceneWriter(const Thinning& thinning, const AddressTranslation& bus, bool depth, command::Writer& list)
+      : data_(thinning.data()), copy_(thinning.copy()), bus_(bus), depth_(depth), list_(list) {}
+
+  /// Those parts of the present meshes that are blended, or all others.
+  Status put_meshes(bool blended);
+  /// Whether put_meshes() has come across anything that is blended.
+  bool any_blended() const { return any_blended_; }
+
+ private:
+  Status put_mesh(const MeshView& mesh, bool blended);
+  Status put_group(const MeshView& mesh, const format::FaceGroup& group, bool blended, std::uint32_t first,
+                   std::uint32_t count);
+  Status put_texture(const MeshView& mesh, const MaterialView& material);
+  Status add_streams_of(const MeshView& mesh, BusAddress block, command::SetVertexStreams& streams) const;
+
+  const DrawingData& data_;
+  const RamCopy& copy_;
+  const AddressTranslation& bus_;
+  bool depth_;
+  command::Writer& list_;
+  command::SetTexture texture_;  // as the engine has it now
+  command::SetFragmentState fragment_;
+  bool any_blended_ = false;
+};
+
+Status SceneWriter::put_meshes(bool blended) {
+  std::uint32_t record = data_.first_record();
+  for (std::uint32_t n = 0; n < copy_.mesh_max(); ++n, record = data_.next_record(record)) {
+    if (!copy_.present(n)) continue;
+    const Status status = put_mesh(data_.mesh_at(n, record), blended);
+    if (!status.ok()) return status;
   }
-  list.put(draw);
+  return ok_status();
+}
+
+Status SceneWriter::put_mesh(const MeshView& mesh, bool blended) {
+  const CopyMesh& copy = copy_.mesh(mesh.number);
+  const std::span<const std::uint32_t> words = copy_.group_words(mesh.number);
+  const bool indexed = copy.index_format != command::IndexFormat::kNone;
+  if (mesh.groups.empty() || !indexed) {  // a point or a line has the material of its vertex
+    const std::uint32_t group = words.empty() || words[0] >= mesh.group_count() ? 0 : words[0];
+    return put_group(mesh, mesh.group(group), blended, 0, indexed ? copy.index_count : copy.vertex_count);
+  }
+  std::uint32_t first = 0;
+  for (std::uint32_t g = 0; g < mesh.group_count(); ++g) {
+    const format::FaceGroup group = mesh.group(g);
+    const std::uint32_t end = 3 * (g < words.size() ? words[g] : group.face_end);
+    const Status status = end > first ? put_group(mesh, group, blended, first, end - first) : ok_status();
+    if (!status.ok()) return status;
+    first = end;
+  }
+  return ok_status();
+}
+
+Status SceneWriter::put_group(const MeshView& mesh, const format::FaceGroup& group, bool blended, std::uint32_t first,
+                              std::uint32_t count) {
+  const MaterialView material = data_.material(group.material);
+  any_blended_ = any_blended_ || blends(material);
+  if (blends(material) != blended) return ok_status();
+  const CopyMesh& copy = copy_.mesh(mesh.number);
+  const BusAddress block = bus_.bus_address(copy_.block(mesh.number));
+  if (block == 0) return unreachable("RAM copy lies outside the bus; mesh number", mesh);
+
+  Status status = put_texture(mesh, material);
+  if (!status.ok()) return status;
+  const command::SetFragmentState fragment = fragment_state_of(material);
+  if (!same(fragment, fragment_)) list_.put(fragment);
+  fragment_ = fragment;
+
+  command::SetRasterState raster;
+  raster.cull = copy.two_sided ? command::CullMode::kNone : command::CullMode::kBack;
+  raster.depth_test = depth_ ? 1 : 0;
+  raster.depth_write = blended ? 0 : 1;
+  raster.point_size = raster.line_width = kMarkSize;
+  list_.put(raster);
+  command::SetVertexStreams streams;
+  streams.constant_colour = {group.base_colour};
+  status = add_streams_of(mesh, block, streams);
+  if (!status.ok()) return status;
+  list_.put(streams);
+  command::Draw draw{copy.topology, copy.index_format, 0, first, count};
+  if (copy.index_format != command::IndexFormat::kNone) draw.index_address = block + copy.index_offset;
+  list_.put(draw);
+  return ok_status();
+}
+
+Status SceneWriter::put_texture(const MeshView& mesh, const MaterialView& material) {
+  command::SetTexture texture;
+  const TextureView& image = material.texture;
+  if (image.present()) {
+    const BusAddress base = bus_.bus_address(image.texels.data());
+    if (base == 0)
+      return unreachable("texture lies where the 3D engine does not reach: map the ROM to the bus; mesh number", mesh);
+    texture = {image.format,    base,            image.width,     image.height, image.level_count,
+               material.filter, material.wrap_s, material.wrap_t};
+  }
+  if (!same(texture, texture_)) list_.put(texture);
+  texture_ = texture;
+  return ok_status();
+}
+
+/// The streams in ROM where the copy leaves them there, and those in the copy's block.
+Status SceneWriter::add_streams_of(const MeshView& mesh, BusAddress block, command::SetVertexStreams& streams) const {
+  const CopyMesh& copy = copy_.mesh(mesh.number);
+  streams.vertex_count = copy.vertex_count;
+  streams.positions = block;
+  if (copy.vertices_in_rom) {
+    const auto address_of = [&](auto stream) { return stream.empty() ? 0 : bus_.bus_address(stream.data()); };
+    streams.positions = address_of(mesh.positions);
+    streams.normals = address_of(mesh.normals);
+    streams.colours = address_of(mesh.colours);
+    if (mesh.textured) streams.texture_coordinates = address_of(mesh.texture_coordinates);
+    if (streams.positions == 0)
+      return unreachable("vertices lie where the 3D engine does not reach: map the ROM to the bus; mesh number", mesh);
+  }
+  if (copy.normal_offset != kNoStream) streams.normals = block + copy.normal_offset;
+  if (copy.colour_offset != kNoStream) streams.colours = block + copy.colour_offset;
+  if (copy.texture_coordinate_offset != kNoStream)
+    streams.texture_coordinates = block + copy.texture_coordinate_offset;
+  return ok_status();
 }
 
 }  // namespace
 
-std::uint32_t scene_command_words(std::uint32_t meshes) { return kFrameWords + meshes * kMeshWords; }
+std::uint32_t scene_command_words(const DrawingData& data) {
+  std::uint32_t draws = 0, textured = 0, alpha = 0;
+  data.for_each_mesh([&](const MeshView& mesh) {
+    for (std::uint32_t g = 0; g < mesh.group_count(); ++g) {
+      const MaterialView material = data.material(mesh.group(g).material);
+      ++draws;
+      if (material.texture.present()) ++textured;
+      if (material.alpha_mode != format::AlphaMode::kOpaque) ++alpha;
+    }
+  });
+  // A state that differs from the default is set at most once by each draw that has it, and taken back at most once
+  // after it.
+  return kFrameWords + draws * kDrawWords + 2 * textured * words_of<command::SetTexture> +
+         2 * alpha * words_of<command::SetFragmentState>;
+}
 
-Result<std::span<const std::uint32_t>> write_scene(const RamCopy& copy, const View& view, const Lighting& lighting,
+Result<std::span<const std::uint32_t>> write_scene(const Thinning& thinning, const View& view, const Lighting& lighting,
                                                    const FrameTarget& target, const AddressTranslation& bus,
                                                    std::span<std::uint32_t> words) {
   command::Writer list(words);
   put_frame_state(list, view, lighting, target);
-  for (std::uint32_t n = 0; n < copy.mesh_max(); ++n) {
-    if (!copy.present(n)) continue;
-    const BusAddress block = bus.bus_address(copy.block(n));
-    if (block == 0) return Status{StatusCode::kFailedPrecondition, "RAM copy lies outside the bus; mesh number", n};
-    put_mesh(list, copy.mesh(n), block, target.depth_format != command::DepthFormat::kNone);
-  }
+  SceneWriter scene(thinning, bus, target.depth_format != command::DepthFormat::kNone, list);
+  Status status = scene.put_meshes(false);
+  if (status.ok() && scene.any_blended()) status = scene.put_meshes(true);
+  if (!status.ok()) return status;
   return list.finish();
 }
 

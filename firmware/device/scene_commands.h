@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware/thinning/ram_copy.h"
+#include "firmware/drawing_data/drawing_data.h"
 #include "firmware/thinning/screen_area.h"
+#include "firmware/thinning/thinning.h"
 #include "hal/bus.h"
 #include "hal/command_list.h"
 #include "hal/status.h"
@@ -29,12 +30,15 @@ struct FrameTarget {
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
 };
 
-/// Words that the list of `meshes` meshes needs at most.
-std::uint32_t scene_command_words(std::uint32_t meshes);
+/// Words that a list of all of the data's meshes needs at most.
+std::uint32_t scene_command_words(const DrawingData& data);
 
-/// The list, in `words`. kResourceExhausted when it does not fit; kFailedPrecondition when the copy lies where the bus
-/// does not reach.
-Result<std::span<const std::uint32_t>> write_scene(const RamCopy& copy, const View& view, const Lighting& lighting,
+/// The list that draws the copy, in `words`: meshes in their order, those parts that are laid over others
+/// (format::AlphaMode::kBlend) after all the rest, in the same order, and without writing depth, so that none of them
+/// hides another. Textures, and vertices that the copy leaves there, are read from ROM.
+/// kResourceExhausted when it does not fit; kFailedPrecondition, with the mesh's number, when the copy, a texture or
+/// vertices lie where the bus does not reach.
+Result<std::span<const std::uint32_t>> write_scene(const Thinning& thinning, const View& view, const Lighting& lighting,
                                                    const FrameTarget& target, const AddressTranslation& bus,
                                                    std::span<std::uint32_t> words);
 

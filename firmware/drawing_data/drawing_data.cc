@@ -103,6 +103,9 @@ MeshView DrawingData::mesh_at(std::uint32_t n, std::uint32_t record_offset) cons
     view.groups = words.array<format::FaceGroup>(d.material + 4, words.at(d.material));
   else
     view.material = material(d.material);
+  view.textured = view.material.texture.present();
+  for (const format::FaceGroup& group : view.groups)
+    view.textured = view.textured || material(group.material).texture.present();
   view.method = static_cast<Method>(d.method);
   if (d.method_settings_offset != 0) view.method_settings = rom_.data() + d.method_settings_offset;
   if (d.edge_value_offset != 0) view.edge_values = words.array<float>(d.edge_value_offset, vertices);
@@ -127,12 +130,6 @@ TextureView DrawingData::texture(std::uint32_t n) const {
       t.texel_offset, static_cast<std::size_t>(texture_bytes(view.format, t.width, t.height, t.level_count)));
   view.name = text(t.name_offset, t.name_bytes);
   return view;
-}
-
-std::uint32_t DrawingData::group_count() const {
-  std::uint32_t count = 0;
-  for_each_mesh([&](const MeshView& mesh) { count += mesh.group_count(); });
-  return count;
 }
 
 MaterialView DrawingData::material(std::uint32_t n) const {

@@ -37,8 +37,6 @@ class DrawingData {
   TextureView texture(std::uint32_t n) const;    // n < texture_count()
   std::uint32_t material_count() const { return material_count_; }
   MaterialView material(std::uint32_t n) const;  // n < material_count(), or kAbsent: the default
-  /// Groups of all meshes, a mesh of one material counted as one: what a frame draws at most.
-  std::uint32_t group_count() const;
   std::span<const std::byte> bytes() const { return rom_; }
   /// The board it was packed for; empty where it is for any, as bare data always are.
   std::string_view board() const { return board_; }

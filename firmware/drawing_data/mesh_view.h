@@ -69,6 +69,7 @@ struct MeshView {
   std::uint32_t flags = 0;
   std::string_view name;                   // empty in bare data
   std::span<const TexCoord> texture_coordinates;  // empty or as many as positions
+  bool textured = false;                   // a material has a texture: there are texture coordinates
   std::span<const float> edge_values;      // the same; each >= 0 or kLockedEdgeValue
   MaterialView material;                   // of a mesh without groups
   std::span<const format::FaceGroup> groups;  // the materials of a mesh that has several; empty: `material`

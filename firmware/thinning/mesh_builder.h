@@ -23,6 +23,7 @@ struct BuildReport {
   BuildOutcome outcome = BuildOutcome::kBuilt;
   bool collapsed = false;  // level 3 ran; a mesh within its quota is copied
   float max_error = 0;     // model units, collapsed meshes only
+  std::uint32_t bytes_left_in_rom = 0;  // of the vertices that are drawn from there: the copy would hold them else
 };
 
 /// Adds the block of `mesh`, decided as `decision` (not kDelete), to `copy`, and charges the work to `clock`. `faces`
@@ -31,6 +32,6 @@ BuildReport build_mesh(const MeshView& mesh, std::uint32_t faces, const Decision
                        Clock& clock);
 
 /// Bytes that building would need at most, the simplifier's scratch included: what the order of building goes by.
-std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Decision& decision);
+std::uint64_t working_bytes(const MeshView& mesh, std::uint32_t faces, const Decision& decision, const RamCopy& copy);
 
 }  // namespace usuzumi::firmware

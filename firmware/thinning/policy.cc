@@ -45,7 +45,7 @@ Decider::Decider(const ThinningSettings& settings, const LevelTotals& totals, co
 }
 
 Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
-  const auto keep = [](Reason reason) { return Decision{Action::kKeep, reason, 0, Placement::kOptimal}; };
+  const auto keep = [](Reason reason) { return Decision{.action = Action::kKeep, .reason = reason}; };
   // Every mesh of a level takes its turn in that level's draw, so that one mesh's area does not shift the others' luck.
   const bool delete_taken = mesh.level == Level::kDelete && policy_takes(settings_.delete_policy, mesh, delete_draw_);
   const bool collapse_taken =
@@ -58,15 +58,17 @@ Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
       if (mesh.telltale()) return keep(Reason::kTelltale);
       if (!delete_taken) return keep(Reason::kNotChosen);
       if (above_area(&settings_.delete_policy, mesh)) return keep(Reason::kAboveArea);
-      return {Action::kDelete, Reason::kAuthorLevel, 0, Placement::kOptimal};
+      return {.action = Action::kDelete};
     case Level::kCollapse:
       if (!collapse_taken) return keep(Reason::kNotChosen);
       if (above_area(&settings_.collapse_policy, mesh)) return keep(Reason::kAboveArea);
-      return {Action::kCollapse, Reason::kAuthorLevel, target_faces(mesh, faces), settings_.placement};
+      return {.action = Action::kCollapse,
+              .placement = settings_.placement,
+              .method = settings_.method_override.given ? settings_.method_override.method : mesh.method,
+              .target_faces = target_faces(mesh, faces)};
     default:  // point and line
       if (above_area(nullptr, mesh)) return keep(Reason::kAboveArea);
-      return {mesh.level == Level::kPoint ? Action::kPoint : Action::kLine, Reason::kAuthorLevel, 0,
-              Placement::kOptimal};
+      return {.action = mesh.level == Level::kPoint ? Action::kPoint : Action::kLine};
   }
 }
 

@@ -40,12 +40,19 @@ struct Quota {
 /// own.
 inline constexpr std::uint32_t kDefaultQuotaMillionths = 500'000;
 
+/// A method for all level-3 meshes, whatever their authors said. An author's settings count where the method is theirs.
+struct MethodOverride {
+  bool given = false;
+  Method method = Method::kQem;
+};
+
 struct ThinningSettings {
   bool enabled = true;      // off: every mesh is kept
   Policy delete_policy;     // level 2
   Policy collapse_policy;   // level 3
   Quota quota;              // replaces the authors' quotas where its kind is not kNone
   Placement placement = Placement::kOptimal;
+  MethodOverride method_override;
 };
 
 enum class Action : std::uint8_t { kKeep, kDelete, kCollapse, kPoint, kLine };
@@ -65,12 +72,14 @@ inline constexpr std::size_t kReasonCount = 6;
 struct Decision {
   Action action = Action::kKeep;
   Reason reason = Reason::kAuthorLevel;
-  std::uint32_t target_faces = 0;  // kCollapse
-  Placement placement = Placement::kOptimal;
+  Placement placement = Placement::kOptimal;  // kCollapse by Method::kQem
+  Method method = Method::kQem;               // kCollapse, with the settings in the drawing data
+  std::uint32_t target_faces = 0;             // kCollapse
   /// Whether the RAM copy of a mesh decided so is the same; the reason does not change the copy.
   bool same_copy(const Decision& other) const {
     return action == other.action &&
-           (action != Action::kCollapse || (target_faces == other.target_faces && placement == other.placement));
+           (action != Action::kCollapse || (target_faces == other.target_faces && placement == other.placement &&
+                                            method == other.method));
   }
 };
 

@@ -19,14 +19,34 @@ bool indices_below(const std::byte* indices, std::uint32_t count, std::uint32_t 
   return true;
 }
 
+std::uint32_t index_bytes(const CopyMesh& mesh) {
+  switch (mesh.index_format) {
+    case command::IndexFormat::kNone: return 0;
+    case command::IndexFormat::kU16: return 2;
+    case command::IndexFormat::kU32: return 4;
+  }
+  return 0;
+}
+
 bool stream_inside(std::uint32_t offset, std::uint64_t bytes, std::uint32_t block_bytes) {
   return offset % 4 == 0 && offset <= block_bytes && bytes <= block_bytes - offset;
 }
 
+/// Whether groups end one after the other and the last at `end`, or there are none.
+bool ends_rise_to(std::span<const std::uint32_t> ends, std::uint32_t end) {
+  std::uint32_t before = 0;
+  for (const std::uint32_t group_end : ends) {
+    if (group_end < before) return false;
+    before = group_end;
+  }
+  return ends.empty() || before == end;
+}
+
 }  // namespace
 
-Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram) {
+Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram, bool rom_on_bus) {
   *this = {};
+  rom_on_bus_ = rom_on_bus;
   const auto slots = ram.allocate<Slot>(mesh_max);
   if (slots.data() == nullptr)
     return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes; meshes", mesh_max};
@@ -37,6 +57,15 @@ Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram) {
   memory_ = memory.first(memory.size() < kMaxCopyBytes ? memory.size() : kMaxCopyBytes);
   first_ = last_ = mesh_max;
   return ok_status();
+}
+
+std::span<const std::uint32_t> RamCopy::group_words(std::uint32_t n) const {
+  const CopyMesh& m = slots_[n].mesh;
+  if (!m.has_group_words) return {};
+  const std::uint64_t begin = m.index_offset + (std::uint64_t{m.index_count} * index_bytes(m) + 3) / 4 * 4;
+  if (begin % 4 != 0 || begin >= slots_[n].bytes) return {};
+  return {reinterpret_cast<const std::uint32_t*>(block(n) + begin),
+          static_cast<std::size_t>(slots_[n].bytes - begin) / 4};
 }
 
 std::uint64_t RamCopy::faces() const {
@@ -97,19 +126,22 @@ bool RamCopy::sound() const {
     if (!slot.present || slot.offset < end || slot.bytes > used_ || slot.offset > used_ - slot.bytes) return false;
     end = std::size_t{slot.offset} + slot.bytes;
     ++count;
-    if (m.vertex_count == 0 || !stream_inside(0, std::uint64_t{m.vertex_count} * sizeof(Vec3), slot.bytes))
-      return false;
-    if (m.normal_offset != 0xFFFFFFFF && !stream_inside(m.normal_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes))
-      return false;
-    if (m.colour_offset != 0xFFFFFFFF && !stream_inside(m.colour_offset, std::uint64_t{m.vertex_count} * 4, slot.bytes))
+    const auto vertices_inside = [&](std::uint32_t offset, std::uint64_t bytes_each) {
+      return offset == kNoStream || stream_inside(offset, m.vertex_count * bytes_each, slot.bytes);
+    };
+    if (m.vertex_count == 0 || (m.vertices_in_rom && !rom_on_bus_) ||
+        !vertices_inside(m.vertices_in_rom ? kNoStream : 0, sizeof(Vec3)) ||
+        !vertices_inside(m.normal_offset, sizeof(PackedNormal)) || !vertices_inside(m.colour_offset, sizeof(Rgba8)) ||
+        !vertices_inside(m.texture_coordinate_offset, sizeof(TexCoord)))
       return false;
     if (m.index_format == command::IndexFormat::kNone) continue;
-    const std::uint32_t size = m.index_format == command::IndexFormat::kU16 ? 2 : 4;
+    const std::uint32_t size = index_bytes(m);
     if (!stream_inside(m.index_offset, std::uint64_t{m.index_count} * size, slot.bytes)) return false;
     const std::byte* indices = block(n) + m.index_offset;
     if (!(size == 2 ? indices_below<std::uint16_t>(indices, m.index_count, m.vertex_count)
                     : indices_below<std::uint32_t>(indices, m.index_count, m.vertex_count)))
       return false;
+    if (!ends_rise_to(group_words(n), m.index_count / 3)) return false;
   }
   return count == present_ && end <= used_;
 }

@@ -34,7 +34,7 @@ Thinning::Priority Thinning::priority(const MeshView& mesh) {
   return kDeletable;
 }
 
-Status Thinning::begin(const DrawingData& data, Arena& ram) {
+Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus) {
   begun_ = false;
   quota_halvings_ = 0;
   totals_ = {};
@@ -53,7 +53,7 @@ Status Thinning::begin(const DrawingData& data, Arena& ram) {
     faces_in_ += faces;
     if (mesh.level == Level::kCollapse) totals_.collapse_faces += faces;
   }
-  return copy_.begin(data.mesh_max(), ram);
+  return copy_.begin(data.mesh_max(), ram, rom_on_bus);
 }
 
 Status Thinning::update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report) {
@@ -107,7 +107,7 @@ void Thinning::build_wanted(Clock& clock) {
   copy_.compact();
   const auto size_of = [&](const MeshView& mesh) {
     const MeshState& state = states_[mesh.number];
-    return size_class(working_bytes(mesh, state.faces, state.decision));
+    return size_class(working_bytes(mesh, state.faces, state.decision, copy_));
   };
   for (std::uint32_t p = 0; p < kPriorityCount; ++p) {
     std::uint64_t classes = 0;  // bit c: some mesh of this priority is of size class c
@@ -181,6 +181,7 @@ void Thinning::count_decisions_and_builds(ThinningReport& report) const {
     const MeshState& state = states_[n];
     ++report.actions[static_cast<std::size_t>(state.decision.action)];
     if (state.decision.action == Action::kKeep) ++report.kept_for[static_cast<std::size_t>(state.decision.reason)];
+    if (copy_.present(n)) report.bytes_left_in_rom += state.build.bytes_left_in_rom;
     if (!state.built || !copy_.present(n)) continue;
     ++report.meshes_built;
     if (!state.build.collapsed) continue;

@@ -37,6 +37,7 @@ struct ThinningReport {
   std::uint32_t first_dropped = 0;    // the first such mesh's number, if meshes_dropped > 0
   std::uint32_t quota_halvings = 0;   // how often every level-3 quota was halved to make the copy fit
   std::uint64_t copy_bytes = 0;
+  std::uint64_t bytes_left_in_rom = 0;  // vertices of thinned meshes that are drawn from ROM, not part of the copy
   std::uint64_t peak_bytes = 0;       // of the copy's memory, working space included
   float max_error = 0;                // largest of the meshes collapsed by this update, model units
 };
@@ -56,7 +57,9 @@ struct MeshState {
 class Thinning {
  public:
   /// Takes tables and the copy's memory from `ram`, all of it that is left. `data` must outlive this.
-  Status begin(const DrawingData& data, Arena& ram);
+  /// `rom_on_bus`: the 3D engine reads `data` where they lie. Meshes that their method thins without new vertices are
+  /// then drawn with the vertices in ROM wherever that takes less RAM.
+  Status begin(const DrawingData& data, Arena& ram, bool rom_on_bus = false);
 
   /// Decides every mesh anew and rebuilds those whose copy would differ. On return the copy is complete and sound.
   /// When memory runs short, level-2 meshes that are to be drawn are left out first: their authors allow their loss,

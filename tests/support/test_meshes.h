@@ -34,6 +34,43 @@ inline TestMesh square(float half, std::uint32_t level, float z = 0) {
   return mesh;
 }
 
+/// Hills whose texture coordinates are the places seen from above: s = (x + 1) / 2, t = (1 - y) / 2.
+inline TestMesh mapped_hills(std::uint32_t n, std::uint32_t level, std::uint32_t material) {
+  TestMesh mesh = hills(n, level);
+  for (const Vec3& p : mesh.positions) mesh.texture_coordinates.push_back({(p.x + 1) / 2, (1 - p.y) / 2});
+  mesh.material = material;
+  return mesh;
+}
+
+/// A mesh of two materials: hills, and more hills 3 to the right of them.
+inline TestMesh two_hills(std::uint32_t n, std::uint32_t level, std::uint32_t first, std::uint32_t second) {
+  TestMesh mesh = mapped_hills(n, level, first);
+  const TestMesh other = mesh;
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto faces = static_cast<std::uint32_t>(mesh.indices.size() / 3);
+  for (const Vec3& p : other.positions) mesh.positions.push_back({p.x + 3, p.y, p.z});
+  for (std::uint32_t i : other.indices) mesh.indices.push_back(i + vertices);
+  for (TexCoord c : other.texture_coordinates) mesh.texture_coordinates.push_back(c);
+  mesh.groups = {{faces, vertices, first, 0xFF0000FF}, {2 * faces, 2 * vertices, second, 0xFF00FF00}};
+  return mesh;
+}
+
+/// Materials 0: opaque and textured; 1: plain; 2: masked with the same texture; 3: blended, without a texture;
+/// 4: another texture.
+inline TestAppearance five_materials() {
+  TestAppearance appearance;
+  appearance.textures.resize(2);
+  appearance.textures[0] = {1, 2, 2, 1, {0xF800FFFF, 0x07E0001F}, {}};  // RGB565
+  appearance.textures[1] = {3, 1, 1, 1, {0x80FFFFFF}, {}};              // ARGB8888
+  using firmware::format::AlphaMode;
+  appearance.materials.resize(5);
+  appearance.materials[0].texture = 0;
+  appearance.materials[2] = {0, 1, 0, 0, AlphaMode::kMask, 77, {}};
+  appearance.materials[3].alpha_mode = AlphaMode::kBlend;
+  appearance.materials[4] = {1, 0, 1, 2, AlphaMode::kOpaque, 0, {}};
+  return appearance;
+}
+
 /// The faces of an indexed mesh as one strip that repeats places between them, the way bare data must have them; a mesh
 /// without indices is a strip already.
 inline TestMesh as_strip(const TestMesh& mesh) {

@@ -17,12 +17,13 @@ inline firmware::View flat_view() { return {Mat4{}, 100, 100}; }
 
 class ThinningBench {
  public:
-  explicit ThinningBench(RomImage rom, std::size_t ram_bytes = 1 << 20) : rom_(std::move(rom)), ram_(ram_bytes) {
+  explicit ThinningBench(RomImage rom, std::size_t ram_bytes = 1 << 20, bool rom_on_bus = false)
+      : rom_(std::move(rom)), ram_(ram_bytes) {
     const auto data = firmware::DrawingData::open(rom_.bytes());
     EXPECT_TRUE(data.ok()) << data.status().message;
     data_ = *data;
     arena_ = Arena(ram_);
-    begin_status = thinning.begin(data_, arena_);
+    begin_status = thinning.begin(data_, arena_, rom_on_bus);
   }
 
   Status update(const firmware::ThinningSettings& settings = {}, const firmware::View& view = flat_view()) {
@@ -30,10 +31,22 @@ class ThinningBench {
   }
 
   const firmware::RamCopy& copy() const { return thinning.copy(); }
-  std::vector<Vec3> positions(std::uint32_t n) const {
-    std::vector<Vec3> p(copy().mesh(n).vertex_count);
-    std::memcpy(static_cast<void*>(p.data()), copy().block(n), p.size() * sizeof(Vec3));
-    return p;
+  std::vector<Vec3> positions(std::uint32_t n) const { return stream<Vec3>(n, 0); }
+  /// One entry per vertex of mesh n, from `offset` in its block on; none where the block has no such stream.
+  template <class T>
+  std::vector<T> stream(std::uint32_t n, std::uint32_t offset) const {
+    if (offset == firmware::kNoStream) return {};
+    std::vector<T> entries(copy().mesh(n).vertex_count);
+    std::memcpy(static_cast<void*>(entries.data()), copy().block(n) + offset, entries.size() * sizeof(T));
+    return entries;
+  }
+  std::vector<std::uint32_t> indices(std::uint32_t n) const {
+    const firmware::CopyMesh& mesh = copy().mesh(n);
+    const bool narrow = mesh.index_format == command::IndexFormat::kU16;
+    std::vector<std::uint32_t> result(mesh.index_count, 0);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      std::memcpy(&result[i], copy().block(n) + mesh.index_offset + i * (narrow ? 2 : 4), narrow ? 2 : 4);
+    return result;
   }
   const RomImage& rom() const { return rom_; }
 

@@ -72,8 +72,8 @@ TEST(SceneCommands, DrawEveryMeshOfTheCopyInOrderAfterOneClear) {
   ThinningBench bench(container_rom({coloured, square(1, 2), hills(4, 3), square(0.1f, 4)}));
   ASSERT_TRUE(bench.update().ok());
   TestBus bus(bench.copy().block(0), bench.copy().used_bytes());
-  std::vector<std::uint32_t> words(firmware::scene_command_words(4));
-  const auto list = write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words);
+  std::vector<std::uint32_t> words(firmware::scene_command_words(bench.thinning.data()));
+  const auto list = write_scene(bench.thinning, testing::flat_view(), {}, kTarget, bus, words);
   ASSERT_TRUE(list.ok()) << list.status().message;
 
   Recorder recorder;
@@ -97,14 +97,14 @@ TEST(SceneCommands, DrawEveryMeshOfTheCopyInOrderAfterOneClear) {
   EXPECT_EQ(recorder.draws[2].draw.topology, command::Topology::kPoints);
 }
 
-TEST(SceneCommands, TheWordsAskedForAreEnoughAndOneFewerMeshIsNot) {
+TEST(SceneCommands, TheWordsAskedForAreEnoughAndOneFewerIsNot) {
   ThinningBench bench(container_rom({square(1, 1), square(1, 1), square(1, 1)}));
   ASSERT_TRUE(bench.update().ok());
   TestBus bus(bench.copy().block(0), bench.copy().used_bytes());
-  std::vector<std::uint32_t> words(firmware::scene_command_words(3));
-  EXPECT_TRUE(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).ok());
-  words.resize(firmware::scene_command_words(2));
-  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code,
+  std::vector<std::uint32_t> words(firmware::scene_command_words(bench.thinning.data()));
+  EXPECT_TRUE(write_scene(bench.thinning, testing::flat_view(), {}, kTarget, bus, words).ok());
+  words.resize(words.size() - 2);  // one is to spare
+  EXPECT_EQ(write_scene(bench.thinning, testing::flat_view(), {}, kTarget, bus, words).status().code,
             StatusCode::kResourceExhausted);
 }
 
@@ -113,8 +113,8 @@ TEST(SceneCommands, ACopyOutsideTheBusIsRefused) {
   ASSERT_TRUE(bench.update().ok());
   const std::byte elsewhere[4] = {};
   TestBus bus(elsewhere, sizeof elsewhere);
-  std::vector<std::uint32_t> words(firmware::scene_command_words(1));
-  EXPECT_EQ(write_scene(bench.copy(), testing::flat_view(), {}, kTarget, bus, words).status().code,
+  std::vector<std::uint32_t> words(firmware::scene_command_words(bench.thinning.data()));
+  EXPECT_EQ(write_scene(bench.thinning, testing::flat_view(), {}, kTarget, bus, words).status().code,
             StatusCode::kFailedPrecondition);
 }
 

@@ -370,7 +370,9 @@ TEST(Appearance, AMeshMayHaveSeveralMaterials) {
   EXPECT_EQ(data->mesh(0).group(0).material, 1u);
   EXPECT_EQ(data->mesh(0).group(0).face_end, 1u);
   EXPECT_EQ(data->mesh(0).group(0).vertex_end, 3u);
-  EXPECT_EQ(data->group_count(), 5u);
+  EXPECT_TRUE(mesh.textured);
+  EXPECT_TRUE(data->mesh(0).textured);
+  EXPECT_FALSE(data->mesh(1).textured);
 }
 
 TEST(Appearance, GroupsCoverTheirMeshAndShareNoVertex) {

@@ -66,7 +66,7 @@ Status draw_picture(firmware::Thinning& thinning, bool thinned, gfx::Engine& eng
                                      .picture_stride_bytes = kWidth * 4,
                                      .depth = Memory::kVram + kPictureBytes,
                                      .depth_stride_bytes = kWidth * 4};
-  const auto list = firmware::write_scene(thinning.copy(), view, lighting, target, memory, words);
+  const auto list = firmware::write_scene(thinning, view, lighting, target, memory, words);
   if (!list.ok()) return list.status();
   if (Status status = engine.execute(*list, memory).status; !status.ok()) return status;
   std::printf("%s: %" PRIu32 " of %" PRIu32 " meshes, CRC-32 %08" PRIx32 "\n", thinned ? "thinned" : "whole",
@@ -78,7 +78,7 @@ Status run() {
   const auto data = firmware::DrawingData::open(std::as_bytes(std::span(rom)));
   if (!data.ok()) return data.status();
   Arena arena(ram);
-  const auto words = arena.allocate<std::uint32_t>(firmware::scene_command_words(data->mesh_max()));
+  const auto words = arena.allocate<std::uint32_t>(firmware::scene_command_words(*data));
   firmware::Thinning thinning;
   if (Status status = thinning.begin(*data, arena); !status.ok()) return status;
   Memory memory;

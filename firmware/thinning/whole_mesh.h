@@ -1,0 +1,27 @@
+// Blocks of the RAM copy that take vertices from ROM as they are: a whole mesh, or a point or a line in its place.
+// Private to this folder.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware/drawing_data/mesh_view.h"
+#include "firmware/thinning/policy.h"
+#include "firmware/thinning/ram_copy.h"
+#include "hal/clock.h"
+
+namespace usuzumi::firmware {
+
+/// What a mesh's blocks have in common.
+CopyMesh described(const MeshView& mesh);
+
+/// Writes the mesh's proper faces as a triangle list, which `indices` have just room for.
+void expand_faces(const MeshView& mesh, std::span<std::uint32_t> indices);
+
+/// Level 1: the mesh as it stands in ROM. False where RAM has no room for it.
+bool copy_as_is(const MeshView& mesh, std::uint32_t faces, RamCopy& copy, Clock& clock);
+
+/// Levels 4 and 5 ([0023]), as `action` says. False where RAM has no room for it.
+bool keep_vertices(const MeshView& mesh, Action action, RamCopy& copy, Clock& clock);
+
+}  // namespace usuzumi::firmware
