@@ -58,5 +58,19 @@ TEST(CostHeap, FollowsAnOrderedSet) {
   }
 }
 
+// With a second number to order by, and fewer slots than numbers, as edges have.
+TEST(KeyHeap, EqualCostsGoByLengthThenByEdge) {
+  std::vector<firmware::EdgeLengthKey> slots(5);
+  std::vector<std::uint32_t> places(40, 3);
+  firmware::KeyHeap<firmware::EdgeLengthKey> heap(slots, places);
+  EXPECT_TRUE(heap.empty());
+  const std::vector<firmware::EdgeLengthKey> sorted = {{1, 5, 9}, {2, 1, 8}, {2, 1, 31}, {2, 3, 1}, {4, 0, 0}};
+  for (const std::size_t i : {3u, 1u, 4u, 0u, 2u}) heap.set(sorted[i]);
+  heap.set({9, 9, 9});  // the first, for a while the last
+  heap.set(sorted[0]);
+  for (const firmware::EdgeLengthKey& key : sorted) EXPECT_EQ(heap.pop(), key);
+  EXPECT_TRUE(heap.empty());
+}
+
 }  // namespace
 }  // namespace usuzumi::testing
