@@ -21,6 +21,10 @@ struct AttributeShares {
 /// beside it.
 AttributeShares shares_at(float t, float weight_of_first, float weight_of_second);
 
+/// `t` of the way from `a` to `b`, beyond either where `t` is outside [0, 1]: channels of a colour are then clamped.
+Rgba8 mixed(Rgba8 a, Rgba8 b, float t);
+TexCoord mixed(TexCoord a, TexCoord b, float t);
+
 struct WedgeAttributes {
   PackedNormal* normals = nullptr;  // null where absent
   Rgba8* colours = nullptr;
