@@ -1,5 +1,6 @@
 #include "firmware/simplify/simplify.h"
 
+#include "firmware/simplify/edge_removal/edge_removal.h"
 #include "firmware/simplify/half_edge/half_edge.h"
 #include "firmware/simplify/qem/qem.h"
 #include "firmware/simplify/surface.h"
@@ -12,8 +13,8 @@ Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& optio
                   mesh.face_count};
   switch (options.method) {
     case Method::kQem: return simplify_qem(mesh, options, scratch);
+    case Method::kEdgeRemoval: return simplify_edge_removal(mesh, options, scratch);
     case Method::kHalfEdge: return simplify_half_edge(mesh, options, scratch);
-    case Method::kEdgeRemoval:
     case Method::kVertexDeletion: break;
   }
   return Status{StatusCode::kUnsupported, "thinning method of a later release",
@@ -24,8 +25,8 @@ std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, 
                                      bool has_texture_coordinates) {
   switch (method) {
     case Method::kQem: return qem_scratch_bytes(vertex_count, face_count, has_texture_coordinates);
+    case Method::kEdgeRemoval: return edge_removal_scratch_bytes(vertex_count, face_count);
     case Method::kHalfEdge: return half_edge_scratch_bytes(vertex_count, face_count);
-    case Method::kEdgeRemoval:
     case Method::kVertexDeletion: break;
   }
   return 0;

@@ -74,7 +74,8 @@ struct EdgeRemovalSettings {
   float b = 0.1f;            // of the sheet term; >= 0
   float neighbour_weight = 0;  // how much of the neighbouring edges' mean value is added to an edge's own; 0: none
   float computed_weight = 1;   // of eq. (1)'s value, >= 0 ...
-  float user_weight = 1;       // ... and of the author's value of the edge: the larger of its ends' edge_values
+  float user_weight = 1;       // ... and of the author's value of the edge: the larger of its ends' edge_values, in
+                               // units of the mesh's mean computed value: 1 is as dear as the mean edge
   EdgePlacement placement = EdgePlacement::kAutomatic;
   BoundaryAnswer boundary_answer = BoundaryAnswer::kLimitMovement;
   float boundary_limit = 1e-4f;  // of eq. (2), as a share of the squared diagonal of the mesh's box; >= 0
@@ -117,9 +118,9 @@ struct SimplifyWork {  // for the machine's cost model
 
 struct SimplifyOutcome {
   StopReason stop = StopReason::kQuotaReached;
-  float max_error = 0;  // model units. QEM, half-edge: largest root of (cost / summed quadric area), by QEM the shift
-                        // of a texture counted in; edge removal, vertex deletion: largest distance that a vertex was
-                        // moved, or lay from the new faces
+  float max_error = 0;  // model units. QEM, half-edge, edge removal: largest root of (cost / summed quadric area), the
+                        // quadrics being those of places alone, but by QEM with the shift of a texture counted in;
+                        // vertex deletion: largest distance that a vertex was moved, or lay from the new faces
   SimplifyWork work;
 };
 
