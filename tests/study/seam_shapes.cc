@@ -21,8 +21,11 @@ TexturedPart side_of_cube(const Axes& axes, std::uint32_t n) {
   TexturedPart part;
   for (std::uint32_t j = 0; j <= n; ++j) {
     for (std::uint32_t i = 0; i <= n; ++i) {
-      // From whole numbers, so that the sides' common positions are the same to the bit.
-      const float x = unit(2 * i, n) - 1, y = unit(2 * j, n) - 1;
+      // Rounded once, so that what another side counts from its other end is the same to the bit.
+      const auto centred = [n](std::uint32_t at) {
+        return (static_cast<float>(2 * at) - static_cast<float>(n)) / static_cast<float>(n);
+      };
+      const float x = centred(i), y = centred(j);
       part.positions.push_back(axes.outward + axes.right * x + axes.up * y);
       part.normals.push_back(axes.outward);
       part.coordinates.push_back({unit(i, n), 1 - unit(j, n)});

@@ -38,6 +38,8 @@ TEST(SeamShapes, CubeIsClosedFacesOutwardsAndHasASeamAlongEveryEdge) {
   EXPECT_EQ(topology.non_manifold_edges, 0u);
   EXPECT_NEAR(volume(cube), 8, 1e-5);
   EXPECT_EQ(count_seam_vertices(cube), 8u + 12 * 3) << "corners, and three vertices inside each edge";
+  for (std::uint32_t n = 1; n < 20; ++n)
+    EXPECT_EQ(testing::topology_of(joined(six_sided_cube(n))).border_edges, 0u) << n << " cells a side";
 }
 
 TEST(SeamShapes, CylinderIsClosedFacesOutwardsAndHasItsCreasesAndItsSeam) {
