@@ -130,7 +130,7 @@ TEST(WedgeMatching, WithoutAContinuousOneTakesTheLowest) {
     const std::uint32_t wedge = s.indices[corner_index(c)];
     EXPECT_EQ(down.successor(wedge), bottom);
     const std::uint32_t colour = surface.mesh.colours[wedge].bits;
-    if (colour == 3) EXPECT_EQ(aside.successor(wedge), lowest) << "no face of the edge has that colour";
+    if (colour == 3) { EXPECT_EQ(aside.successor(wedge), lowest) << "no face of the edge has that colour"; }
     else EXPECT_EQ(surface.mesh.colours[aside.successor(wedge)].bits, colour);
   }
 }
