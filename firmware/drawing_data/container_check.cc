@@ -5,6 +5,7 @@
 
 #include "firmware/drawing_data/appearance_check.h"
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/layers/layer_format.h"
 #include "hal/crc32.h"
 
 namespace usuzumi::firmware {
@@ -148,8 +149,8 @@ Status check_descriptor(const Words& words, const Sections& sections, std::uint3
     return damaged("area threshold is not a finite number, in the mesh descriptor at byte offset", at);
   if ((d.flags & ~(format::kFlagTelltale | format::kFlagTwoSided | format::kFlagGroups)) != 0)
     return unsupported("mesh flags of a later release, in the mesh descriptor at byte offset", at);
-  if (d.layer_offset != 0)
-    return unsupported("layers need a later release, in the mesh descriptor at byte offset", at);
+  if (d.layer_offset != 0 && !sections.layers.holds(d.layer_offset, sizeof(format::LayerChainHeader)))
+    return damaged("layers lie outside section LAYR, in the mesh descriptor at byte offset", at);
   status = check_method(words, sections, d, vertices, at);
   return status.ok() ? check_appearance(words, sections, d, vertices, at) : status;
 }

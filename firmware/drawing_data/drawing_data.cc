@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "firmware/drawing_data/container_check.h"
+#include "firmware/layers/mesh_layers.h"
 
 namespace usuzumi::firmware {
 namespace {
@@ -61,9 +62,24 @@ Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   data.descriptors_offset_ = sections.meshes.begin;
   data.materials_offset_ = sections.materials.begin;
   data.material_count_ = sections.materials.bytes() / static_cast<std::uint32_t>(sizeof(format::Material));
+  data.layers_end_ = sections.layers.end;
   data.textures_offset_ = sections.textures.begin;
   data.texture_count_ = sections.textures.bytes() / static_cast<std::uint32_t>(sizeof(format::Texture));
+  const Status layers = data.check_layers();
+  if (!layers.ok()) return layers;
   return data;
+}
+
+Status DrawingData::check_layers() const {
+  for (std::uint32_t n = 0; n < mesh_max_; ++n) {
+    const MeshView mesh = mesh_at(n, 0);
+    if (mesh.layers.empty()) continue;
+    Status status = check_mesh_layers(mesh);
+    if (status.ok()) continue;
+    status.where += static_cast<std::uint32_t>(mesh.layers.data() - rom_.data());
+    return status;
+  }
+  return ok_status();
 }
 
 std::uint32_t DrawingData::next_record(std::uint32_t record_offset) const {
@@ -109,6 +125,7 @@ MeshView DrawingData::mesh_at(std::uint32_t n, std::uint32_t record_offset) cons
   view.method = static_cast<Method>(d.method);
   if (d.method_settings_offset != 0) view.method_settings = rom_.data() + d.method_settings_offset;
   if (d.edge_value_offset != 0) view.edge_values = words.array<float>(d.edge_value_offset, vertices);
+  if (d.layer_offset != 0) view.layers = rom_.subspan(d.layer_offset, layers_end_ - d.layer_offset);
   return view;
 }
 

@@ -42,6 +42,7 @@ class DrawingData {
   std::string_view board() const { return board_; }
 
  private:
+  Status check_layers() const;
   std::string_view text(std::uint32_t offset, std::uint32_t bytes) const;
 
   std::span<const std::byte> rom_;
@@ -50,6 +51,7 @@ class DrawingData {
   std::uint32_t mesh_max_ = 0;
   std::uint32_t first_record_ = 4;
   std::uint32_t descriptors_offset_ = 0;
+  std::uint32_t layers_end_ = 0;  // of section LAYR
   std::uint32_t materials_offset_ = 0, material_count_ = 0;
   std::uint32_t textures_offset_ = 0, texture_count_ = 0;
 };

@@ -75,6 +75,7 @@ struct MeshView {
   std::span<const format::FaceGroup> groups;  // the materials of a mesh that has several; empty: `material`
   Method method = Method::kQem;            // of level 3
   const std::byte* method_settings = nullptr;  // 40 checked bytes in ROM, where the author has given any
+  std::span<const std::byte> layers;       // its chain (firmware/layers/layer_chain.h), of_checked(); empty: none
 
   /// The author's, where `method` is theirs; the defaults otherwise.
   EdgeRemovalSettings edge_removal() const;

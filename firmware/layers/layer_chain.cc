@@ -1,6 +1,5 @@
 #include "firmware/layers/layer_chain.h"
 
-#include <cmath>
 #include <cstring>
 
 #include "firmware/drawing_data/format.h"
@@ -26,6 +25,12 @@ class LayerChainChecker {
     if (status.ok()) status = check_pairs();
     if (status.ok()) status = check_added();
     return status;
+  }
+
+  /// Resolves the arrays alone.
+  void trust() {
+    std::memcpy(&view_.header_, bytes_.data(), sizeof view_.header_);
+    (void)lay_out();
   }
 
  private:
@@ -203,10 +208,11 @@ class LayerChainChecker {
 
   Status check_added() {
     const VertexStreams& added = view_.added_;
-    const auto within = [](float c) { return c >= -format::kMaxCoordinate && c <= format::kMaxCoordinate; };
+    const auto within = [](float c, float most) { return c >= -most && c <= most; };
     for (std::size_t i = 0; i < added.positions.size(); ++i) {
       const Vec3 p = added.positions[i];
-      if (!within(p.x) || !within(p.y) || !within(p.z))
+      constexpr float kMost = format::kMaxCoordinate;
+      if (!within(p.x, kMost) || !within(p.y, kMost) || !within(p.z, kMost))
         return damaged_entry("chain of layers: a coordinate beyond 1e8 or not a number, at byte offset",
                              added.positions, i);
     }
@@ -215,8 +221,8 @@ class LayerChainChecker {
         return damaged_entry("chain of layers: not a packed normal, at byte offset", added.normals, i);
     for (std::size_t i = 0; i < added.texture_coordinates.size(); ++i) {
       const TexCoord t = added.texture_coordinates[i];
-      if (!std::isfinite(t.s) || !std::isfinite(t.t))
-        return damaged_entry("chain of layers: a texture coordinate is not a number, at byte offset",
+      if (!within(t.s, format::kMaxTextureCoordinate) || !within(t.t, format::kMaxTextureCoordinate))
+        return damaged_entry("chain of layers: a texture coordinate beyond 10000 or not a number, at byte offset",
                              added.texture_coordinates, i);
     }
     return ok_status();
@@ -231,6 +237,12 @@ Result<LayerChainView> LayerChainView::open(std::span<const std::byte> bytes, co
   LayerChainView view;
   const Status status = LayerChainChecker(bytes, view).check(mesh);
   if (!status.ok()) return status;
+  return view;
+}
+
+LayerChainView LayerChainView::of_checked(std::span<const std::byte> bytes) {
+  LayerChainView view;
+  LayerChainChecker(bytes, view).trust();
   return view;
 }
 

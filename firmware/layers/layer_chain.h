@@ -40,6 +40,8 @@ class LayerChainView {
   /// no replay reads or writes outside its buffers. Whether each change begins where the one before it ended is not
   /// known until LayerReplay::check(). kDataLoss, `where` is the byte offset in the chain.
   static Result<LayerChainView> open(std::span<const std::byte> bytes, const LayerChainMesh& mesh);
+  /// Of bytes that open() has accepted: nothing is checked again.
+  static LayerChainView of_checked(std::span<const std::byte> bytes);
 
   const format::LayerChainHeader& header() const { return header_; }
   std::uint32_t vertex_count() const { return header_.vertex_count; }

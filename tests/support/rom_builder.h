@@ -48,6 +48,7 @@ struct TestMesh {
   firmware::format::Method method = firmware::format::Method::kQem;
   std::vector<std::uint32_t> method_settings;  // 10 words, or none
   std::vector<float> edge_values;
+  std::vector<std::uint32_t> layers;           // its chain, or none
   std::vector<firmware::format::FaceGroup> groups;  // in place of `material`
 };
 
@@ -136,7 +137,8 @@ class ContainerBuilder {
 
 /// Where the container has each mesh's streams.
 struct MeshOffsets {
-  std::vector<std::uint32_t> records, indices, normals, colours, names, coordinates, settings, edge_values, groups;
+  std::vector<std::uint32_t> records, indices, normals, colours, names, coordinates, settings, edge_values, groups,
+      layers;
 };
 
 inline void append_descriptor(RomImage& rom, const TestMesh& mesh, const MeshOffsets& at, std::size_t n) {
@@ -161,7 +163,7 @@ inline void append_descriptor(RomImage& rom, const TestMesh& mesh, const MeshOff
   rom.word(mesh.groups.empty() ? mesh.material : at.groups[n]);
   rom.word(mesh.method_settings.empty() ? 0 : at.settings[n]);
   rom.word(mesh.edge_values.empty() ? 0 : at.edge_values[n]);
-  rom.word(0);
+  rom.word(mesh.layers.empty() ? 0 : at.layers[n]);
 }
 
 inline void append_appearance(ContainerBuilder& out, const TestAppearance& appearance,
@@ -200,9 +202,10 @@ inline RomImage container_rom(const std::vector<TestMesh>& meshes, const TestApp
   };
   const bool coordinates = any(&TestMesh::texture_coordinates), settings = any(&TestMesh::method_settings),
              edge_values = any(&TestMesh::edge_values), groups = any(&TestMesh::groups),
+             layers = any(&TestMesh::layers),
              appearances = !appearance.materials.empty() || !appearance.textures.empty();
   ContainerBuilder out(6u + (coordinates ? 1u : 0u) + (settings ? 1u : 0u) + (edge_values ? 1u : 0u) +
-                       (groups ? 1u : 0u) + (appearances ? 3u : 0u));
+                       (groups ? 1u : 0u) + (layers ? 1u : 0u) + (appearances ? 3u : 0u));
   RomImage& rom = out.rom;
   MeshOffsets at;
   out.section(SectionType::kRecords, [&] { append_records(rom, meshes, &at.records); });
@@ -240,6 +243,10 @@ inline RomImage container_rom(const std::vector<TestMesh>& meshes, const TestApp
       rom.word(static_cast<std::uint32_t>(mesh.groups.size()));
       for (const FaceGroup& g : mesh.groups)
         for (std::uint32_t w : {g.face_end, g.vertex_end, g.material, g.base_colour}) rom.word(w);
+    });
+  if (layers)
+    at.layers = out.streams(SectionType::kLayers, meshes, [&](const TestMesh& mesh) {
+      for (std::uint32_t w : mesh.layers) rom.word(w);
     });
   if (appearances) append_appearance(out, appearance, texture_names);
   out.section(SectionType::kMeshes, [&] {

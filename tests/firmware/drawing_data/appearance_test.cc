@@ -285,7 +285,7 @@ TEST(Appearance, EveryWordOfTexturesMaterialsAndSettingsIsChecked) {
       {kMeshes, 60, 0, kLost, "outside section TXCO"},
       {kMeshes, 68, 4, kLost, "outside section METH"},
       {kMeshes, 72, 4, kLost, "outside section EDGV"},
-      {kMeshes, 76, 4, kLater, "layers need a later release"},
+      {kMeshes, 76, 4, kLost, "outside section LAYR"},
       {kMeshes, 44, 2, kLost, "method that has none"},
   };
   for (const BadWord& bad : cases) {

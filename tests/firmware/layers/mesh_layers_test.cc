@@ -1,0 +1,247 @@
+// The firmware's own methods: what a chain's last state is, is what the method alone makes.
+#include "firmware/layers/mesh_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "firmware/layers/middle_layer.h"
+#include "tests/firmware/layers/hand_log.h"
+#include "tests/support/mesh_shapes.h"
+
+namespace usuzumi {
+namespace {
+
+using firmware::LayerChainView;
+using firmware::MeshView;
+using firmware::Method;
+
+constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
+
+/// A body with a seam, two attributes that differ on its sides, and normals that are sharp at its edges.
+testing::Mesh body() {
+  testing::Mesh mesh = testing::with_flat_normals(testing::cube(8));
+  std::vector<std::array<std::uint32_t, 6>> known;
+  testing::Mesh joined;
+  for (const std::uint32_t v : mesh.indices) {
+    const Vec3 p = mesh.positions[v];
+    const PackedNormal n = mesh.normals[v];
+    std::array<std::uint32_t, 6> key{};
+    std::memcpy(key.data(), &p, 12);
+    key[3] = n.bits;
+    const auto at = std::find(known.begin(), known.end(), key);
+    joined.indices.push_back(static_cast<std::uint32_t>(at - known.begin()));
+    if (at != known.end()) continue;
+    known.push_back(key);
+    joined.positions.push_back(p);
+    joined.normals.push_back(n);
+    const auto green = static_cast<std::uint32_t>(p.x * 30);
+    joined.colours.push_back(n.bits % 3 == 0 ? rgba8(200, 20, 20) : rgba8(20, green, 200));
+    joined.texture_coordinates.push_back({p.x / 8 + static_cast<float>(n.bits % 5), p.y / 8});
+  }
+  return joined;
+}
+
+MeshView view_of(const testing::Mesh& mesh, Method method) {
+  MeshView view;
+  view.level = firmware::Level::kCollapse;
+  view.topology = firmware::format::Topology::kIndexed;
+  view.positions = mesh.positions;
+  view.normals = mesh.normals;
+  view.colours = mesh.colours;
+  view.texture_coordinates = mesh.texture_coordinates;
+  view.indices = std::as_bytes(std::span(mesh.indices));
+  view.index_bytes = 4;
+  view.index_count = static_cast<std::uint32_t>(mesh.indices.size());
+  view.method = method;
+  return view;
+}
+
+using Corner = std::array<std::uint32_t, 7>;
+using Picture = std::multiset<std::array<Corner, 3>>;
+
+Corner corner_of(Vec3 p, PackedNormal n, Rgba8 c, TexCoord t) {
+  Corner corner;
+  p = p + Vec3{};  // -0 is 0
+  std::memcpy(&corner[0], &p, 12);
+  corner[3] = n.bits;
+  corner[4] = c.bits;
+  std::memcpy(&corner[5], &t, 8);
+  return corner;
+}
+
+void add_face(Picture& picture, std::array<Corner, 3> face) {
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  picture.insert(face);
+}
+
+class MeshLayers : public ::testing::TestWithParam<Method> {
+ protected:
+  MeshLayers() : mesh_(body()), view_(view_of(mesh_, GetParam())), faces_(view_.proper_face_count()) {
+    memory_.resize(firmware::mesh_layers_bytes(view_, faces_));
+    arena_ = Arena(memory_);
+    const auto made = firmware::make_mesh_layers(view_, faces_, kQuotas, firmware::Placement::kOptimal, arena_);
+    status_ = made.status();
+    if (!made.ok()) return;
+    view_.layers = *made;
+    chain_ = LayerChainView::of_checked(*made);
+    positions_.resize(chain_.store_count());
+    normals_.resize(positions_.size());
+    colours_.resize(positions_.size());
+    coordinates_.resize(positions_.size());
+    firmware::write_store(chain_, {mesh_.positions, mesh_.normals, mesh_.colours, mesh_.texture_coordinates},
+                          {positions_, normals_, colours_, coordinates_});
+  }
+
+  Picture replayed(std::uint32_t step) {
+    std::vector<std::uint32_t> indices(3 * faces_), live(1);
+    firmware::LayerReplay replay(chain_, std::as_writable_bytes(std::span(indices)), 4, live);
+    firmware::begin_replay(view_, replay);
+    EXPECT_TRUE(replay.check().ok());
+    replay.go_to(step);
+    Picture picture;
+    for (std::uint32_t f = 0; f < replay.faces(); ++f) {
+      std::array<Corner, 3> face;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = indices[3 * f + k];
+        face[k] = corner_of(positions_[v], normals_[v], colours_[v], coordinates_[v]);
+      }
+      add_face(picture, face);
+    }
+    return picture;
+  }
+
+  Picture thinned(std::uint32_t target) {
+    testing::Mesh work = mesh_;
+    firmware::WorkingMesh working;
+    working.positions = work.positions;
+    working.normals = work.normals;
+    working.colours = work.colours;
+    working.texture_coordinates = work.texture_coordinates;
+    working.indices = work.indices;
+    working.vertex_count = static_cast<std::uint32_t>(work.positions.size());
+    working.face_count = faces_;
+    std::vector<std::byte> memory(8u << 20);
+    Arena arena(memory);
+    firmware::SimplifyOptions options;
+    options.target_faces = target;
+    options.method = GetParam();
+    EXPECT_TRUE(firmware::simplify(working, options, arena).ok());
+    Picture picture;
+    for (std::uint32_t f = 0; f < working.face_count; ++f) {
+      std::array<Corner, 3> face;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = working.indices[3 * f + k];
+        face[k] =
+            corner_of(working.positions[v], working.normals[v], working.colours[v], working.texture_coordinates[v]);
+      }
+      add_face(picture, face);
+    }
+    return picture;
+  }
+
+  testing::Mesh mesh_;
+  MeshView view_;
+  std::uint32_t faces_;
+  std::vector<std::byte> memory_;
+  Arena arena_;
+  Status status_;
+  LayerChainView chain_;
+  std::vector<Vec3> positions_;
+  std::vector<PackedNormal> normals_;
+  std::vector<Rgba8> colours_;
+  std::vector<TexCoord> coordinates_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::Values(Method::kHalfEdge, Method::kQem));
+
+TEST_P(MeshLayers, EveryLayerIsWhatTheMethodAloneMakes) {
+  ASSERT_TRUE(status_.ok()) << status_.message << " " << status_.where;
+  ASSERT_EQ(chain_.layer_count(), 4u);
+  for (std::uint32_t n = 0; n < 4; ++n) {
+    const auto& layer = chain_.layer(n);
+    const Picture alone = thinned(layer.faces), from_chain = replayed(layer.step);
+    EXPECT_EQ(alone.size(), from_chain.size()) << "layer " << n;
+    EXPECT_TRUE(alone == from_chain) << "layer " << n;
+  }
+}
+
+TEST_P(MeshLayers, TheChainAloneStaysInTheArena) {
+  ASSERT_TRUE(status_.ok());
+  EXPECT_EQ(arena_.used(), view_.layers.size() + static_cast<std::size_t>(view_.layers.data() - memory_.data()));
+  EXPECT_TRUE(firmware::check_mesh_layers(view_).ok());
+  EXPECT_LT(view_.layers.data() - memory_.data(), 4);
+}
+
+TEST_P(MeshLayers, TooLittleMemoryIsSaidAndNothingIsKept) {
+  std::size_t refused = 0;
+  for (std::size_t bytes = 0; bytes < arena_.high_water(); bytes += arena_.high_water() / 50) {
+    const std::span<std::byte> few = std::span(memory_).first(bytes);
+    Arena small(few);
+    const auto made = firmware::make_mesh_layers(view_, faces_, kQuotas, firmware::Placement::kOptimal, small);
+    if (made.ok()) continue;
+    ++refused;
+    EXPECT_EQ(made.status().code, StatusCode::kResourceExhausted) << made.status().message;
+    EXPECT_EQ(small.used(), 0u);
+  }
+  EXPECT_GT(refused, 25u);
+}
+
+TEST_P(MeshLayers, MiddleLayersOpenNoHole) {
+  ASSERT_TRUE(status_.ok());
+  const firmware::VertexStreams given{mesh_.positions, mesh_.normals, mesh_.colours, mesh_.texture_coordinates};
+  for (std::uint32_t n = 0; n + 1 < chain_.layer_count(); ++n)
+    for (const float w : {0.25f, 0.5f, 1.0f}) {
+      firmware::write_middle_layer(chain_, given, n, w, {positions_, normals_, colours_, coordinates_});
+      std::vector<std::uint32_t> indices(3 * faces_), live(1);
+      firmware::LayerReplay replay(chain_, std::as_writable_bytes(std::span(indices)), 4, live);
+      firmware::begin_replay(view_, replay);
+      replay.go_to(chain_.layer(n).step);
+      // Every edge of a face at work is met by as many the other way, by place: the body stays closed.
+      std::map<std::pair<std::array<float, 3>, std::array<float, 3>>, int> balance;
+      const auto place = [&](std::uint32_t v) {
+        return std::array<float, 3>{positions_[v].x + 0.0f, positions_[v].y + 0.0f, positions_[v].z + 0.0f};
+      };
+      for (std::uint32_t f = 0; f < replay.faces(); ++f)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          const auto a = place(indices[3 * f + k]), b = place(indices[3 * f + (k + 1) % 3]);
+          if (a < b) ++balance[{a, b}];
+          if (b < a) --balance[{b, a}];
+        }
+      const auto open = std::count_if(balance.begin(), balance.end(), [](const auto& e) { return e.second != 0; });
+      EXPECT_EQ(open, 0) << "layer " << n << " + " << w;
+      firmware::write_middle_layer(chain_, given, n, 0, {positions_, normals_, colours_, coordinates_});
+    }
+}
+
+TEST(MeshLayersRefused, MeshesWithoutNormalsAndWithRepeatedVertices) {
+  testing::Mesh mesh = body();
+  std::vector<std::byte> memory(4u << 20);
+  Arena arena(memory);
+  MeshView view = view_of(mesh, Method::kHalfEdge);
+  view.normals = {};
+  const auto make = [&] {
+    return firmware::make_mesh_layers(view, view.proper_face_count(), kQuotas, firmware::Placement::kOptimal, arena)
+        .status()
+        .code;
+  };
+  EXPECT_EQ(make(), StatusCode::kUnsupported);
+  mesh = testing::Mesh{};
+  const testing::Mesh from = body();
+  for (const std::uint32_t v : from.indices) {
+    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.push_back(from.positions[v]);
+    mesh.normals.push_back(from.normals[v]);
+  }
+  view = view_of(mesh, Method::kHalfEdge);
+  EXPECT_EQ(make(), StatusCode::kUnsupported);
+  EXPECT_EQ(arena.used(), 0u);
+}
+
+}  // namespace
+}  // namespace usuzumi
