@@ -40,10 +40,10 @@ class EdgeRemover {
   void count_border_edges();
   void find_limit();
   void find_unit(EdgeValues& values);
-  bool key_of(Corner edge, EdgeLengthKey& key);
+  bool key_of(Corner edge, EdgeShape& shape, EdgeLengthKey& key);
   void put(Corner edge);
   void remove_to_target();
-  bool try_remove(Corner edge);
+  bool try_remove(const EdgeShape& shape);
   bool try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t);
   bool swallows_an_island(const Neighbourhood& n);
   void carry_out(const Neighbourhood& n, float t, Vec3 position);
@@ -144,9 +144,9 @@ void EdgeRemover::find_unit(EdgeValues& values) {
   if (count > 0) values.set_unit(static_cast<float>(sum / static_cast<double>(count)));
 }
 
-bool EdgeRemover::key_of(Corner edge, EdgeLengthKey& key) {
+bool EdgeRemover::key_of(Corner edge, EdgeShape& shape, EdgeLengthKey& key) {
   ++outcome_.work.edges_costed;
-  const EdgeShape shape = values_->shape_of(edge);
+  shape = values_->shape_of(edge);
   if (values_->freedom_of(shape) == Freedom::kNone) return false;
   key = {values_->value(edge, shape), shape.length, edge};
   return true;
@@ -154,9 +154,10 @@ bool EdgeRemover::key_of(Corner edge, EdgeLengthKey& key) {
 
 /// To its place in the heap, or out of it where it may not be removed.
 void EdgeRemover::put(Corner edge) {
+  EdgeShape shape;
   EdgeLengthKey key;
   ++outcome_.work.queue_operations;
-  if (key_of(edge, key)) heap_.set(key);
+  if (key_of(edge, shape, key)) heap_.set(key);
   else heap_.remove(edge);
 }
 
@@ -171,21 +172,21 @@ void EdgeRemover::remove_to_target() {
     }
     const EdgeLengthKey top = heap_.top();
     ++outcome_.work.queue_operations;
+    EdgeShape shape;
     EdgeLengthKey now;
     // Its face may be gone, or another half-edge may stand for the edge now.
-    if ((surface_.links[top.edge] & kRepresentative) == 0 || !key_of(top.edge, now)) {
+    if ((surface_.links[top.edge] & kRepresentative) == 0 || !key_of(top.edge, shape, now)) {
       heap_.remove(top.edge);
     } else if (top < now) {
       heap_.set(now);
     } else {
       heap_.remove(top.edge);
-      if (!try_remove(top.edge)) refuse(top.edge);
+      if (!try_remove(shape)) refuse(top.edge);
     }
   }
 }
 
-bool EdgeRemover::try_remove(Corner edge) {
-  const EdgeShape shape = values_->shape_of(edge);
+bool EdgeRemover::try_remove(const EdgeShape& shape) {
   const Freedom freedom = values_->freedom_of(shape);
   if (shape.border && settings().boundary_answer == BoundaryAnswer::kRefuse &&
       !(shape.at_a.outline + shape.at_b.outline <= outline_limit_))
