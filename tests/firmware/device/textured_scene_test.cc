@@ -200,6 +200,16 @@ TEST(TexturedScene, EveryGroupIsDrawnWithItsMaterialAndColour) {
   }
 }
 
+TEST(TexturedScene, AGroupThatThinningHasEmptiedIsNotDrawn) {
+  TestMesh mesh = two_hills(6, 3, 0, 4);
+  for (std::size_t i = 3 * 72; i < mesh.indices.size(); ++i) mesh.indices[i] = 60;  // of no area, all of the second
+  ThinningBench bench(container_rom({mesh}, five_materials()));
+  const Walked list = drawn(bench);
+  ASSERT_EQ(bench.copy().group_words(0).size(), 2u);
+  ASSERT_EQ(list.draws.size(), 1u);
+  EXPECT_EQ(list.draws[0].texture.format, command::TextureFormat::kRgb565);
+}
+
 TEST(TexturedScene, BlendedGroupsWaitForTheOtherMeshes) {
   ThinningBench bench(container_rom({two_hills(2, 1, 3, 0), hills(2, 1)}, five_materials()));
   const Walked list = drawn(bench);
@@ -232,6 +242,54 @@ TEST(TexturedScene, ATextureOutsideTheBusIsRefusedByName) {
       write_scene(bench.thinning, testing::flat_view(), {}, kTarget, TwoMemories(bench, false), words).status();
   EXPECT_EQ(status.code, StatusCode::kFailedPrecondition);
   EXPECT_NE(std::string_view(status.message).find("texture"), std::string_view::npos) << status.message;
+  EXPECT_EQ(status.where, 1u);
+}
+
+TEST(TexturedScene, VerticesThatStayInRomAreReadThere) {
+  TestMesh mesh = mapped_hills(8, 3, 0);
+  mesh.method = firmware::format::Method::kHalfEdge;
+  mesh.normals.assign(mesh.positions.size(), pack_normal({0, 0, 1}));
+  mesh.colours.assign(mesh.positions.size(), rgba8(9, 9, 9));
+  ThinningBench bench(container_rom({mesh}, five_materials()), 1 << 20, true);
+  const Walked list = drawn(bench);
+  ASSERT_EQ(list.draws.size(), 1u);
+  const command::SetVertexStreams& streams = list.draws[0].streams;
+  const firmware::MeshView view = bench.thinning.data().mesh(0);
+  const auto in_rom = [&](const auto& stream) {
+    return kRom + static_cast<BusAddress>(std::as_bytes(stream).data() - bench.rom().bytes().data());
+  };
+  EXPECT_EQ(streams.vertex_count, 81u);
+  EXPECT_EQ(streams.positions, in_rom(view.positions));
+  EXPECT_EQ(streams.normals, in_rom(view.normals));
+  EXPECT_EQ(streams.colours, in_rom(view.colours));
+  EXPECT_EQ(streams.texture_coordinates, in_rom(view.texture_coordinates));
+  EXPECT_EQ(list.draws[0].draw.index_address, kRam);
+  EXPECT_EQ(list.draws[0].draw.count, 3 * bench.copy().mesh(0).faces);
+}
+
+TEST(TexturedScene, NormalsMadeForVerticesInRomAreReadFromTheCopy) {
+  TestMesh mesh = hills(8, 3);
+  mesh.method = firmware::format::Method::kHalfEdge;
+  mesh.quota_kind = firmware::format::QuotaKind::kMillionths;
+  mesh.quota = 800'000;
+  ThinningBench bench(container_rom({mesh}), 1 << 20, true);
+  const Walked list = drawn(bench);
+  ASSERT_TRUE(bench.copy().mesh(0).vertices_in_rom);
+  EXPECT_EQ(list.draws[0].streams.normals, kRam + bench.copy().mesh(0).normal_offset);
+  EXPECT_EQ(list.draws[0].streams.colours, 0u);
+}
+
+TEST(TexturedScene, VerticesOutsideTheBusAreRefused) {
+  TestMesh mesh = hills(8, 3);
+  mesh.method = firmware::format::Method::kHalfEdge;
+  mesh.normals.assign(mesh.positions.size(), pack_normal({0, 0, 1}));
+  ThinningBench bench(container_rom({hills(2, 1), mesh}), 1 << 20, true);  // told that the ROM were there
+  ASSERT_TRUE(bench.update().ok());
+  std::vector<std::uint32_t> words(firmware::scene_command_words(bench.thinning.data()));
+  const Status status =
+      write_scene(bench.thinning, testing::flat_view(), {}, kTarget, TwoMemories(bench, false), words).status();
+  EXPECT_EQ(status.code, StatusCode::kFailedPrecondition);
+  EXPECT_NE(std::string_view(status.message).find("vertices"), std::string_view::npos) << status.message;
   EXPECT_EQ(status.where, 1u);
 }
 
