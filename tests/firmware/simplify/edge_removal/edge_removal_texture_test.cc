@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "firmware/simplify/attributes.h"
 #include "firmware/simplify/edge_removal/edge_removal.h"
 #include "tests/firmware/simplify/replay.h"
 
@@ -150,6 +151,146 @@ TEST(EdgeRemovalTexture, RandomPatchesNeverTearNorVanish) {
     EXPECT_GT(thinned.outcome.work.collapses, 0u);
     expect_replay_gives(mesh, room.log, thinned.mesh);
   }
+}
+
+// An image on one small face of a ball: its sides are the cheapest edges there are.
+TEST(EdgeRemovalTexture, AnIslandOfOneFaceIsNotSwallowed) {
+  Mesh ball = icosphere(2);
+  const std::uint32_t* island = &ball.indices[3 * 77];
+  const Vec3 middle = (ball.positions[island[0]] + ball.positions[island[1]] + ball.positions[island[2]]) * (1.0f / 3);
+  for (int k = 0; k < 3; ++k) {
+    Vec3& p = ball.positions[island[k]];
+    p = middle + (p - middle) * 0.3f;
+  }
+  const Vec3 apart = middle * 0.999f;
+  const Mesh mesh = patched(ball, [&](Vec3 p) { return length(p - apart) < 0.01f ? 1 : 0; });
+  ASSERT_EQ(patches_of(mesh).size(), 2u);
+  SimplifyOptions options = options_of(60);
+  options.edge_removal.boundary_limit = 1;
+  const Thinned thinned = thin(mesh, options);
+  EXPECT_EQ(thinned.mesh.face_count(), 60u);
+  EXPECT_EQ(patches_of(thinned.mesh).size(), 2u);
+  expect_image_in_place(thinned.mesh, 2e-4f);
+}
+
+// A flat disc of `sides` sides on the outline and two rings inside.
+Mesh disc(int sides) {
+  Mesh mesh;
+  mesh.positions.push_back({0, 0, 0});
+  for (int ring = 1; ring <= 3; ++ring)
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 6.283185307179586 * i / sides;
+      mesh.positions.push_back({static_cast<float>(std::cos(angle) * ring / 3),
+                                static_cast<float>(std::sin(angle) * ring / 3), 0});
+    }
+  const auto at = [&](int ring, int i) { return static_cast<std::uint32_t>(1 + (ring - 1) * sides + i % sides); };
+  for (int i = 0; i < sides; ++i) {
+    mesh.indices.insert(mesh.indices.end(), {0, at(1, i), at(1, i + 1)});
+    for (int ring = 1; ring < 3; ++ring)
+      mesh.indices.insert(mesh.indices.end(), {at(ring, i), at(ring + 1, i), at(ring + 1, i + 1), at(ring, i),
+                                               at(ring + 1, i + 1), at(ring, i + 1)});
+  }
+  return mesh;
+}
+
+double area_of(const Mesh& mesh) {
+  double sum = 0;
+  for (std::size_t f = 0; f < mesh.indices.size(); f += 3)
+    sum += static_cast<double>(cross(mesh.positions[mesh.indices[f + 1]] - mesh.positions[mesh.indices[f]],
+                                     mesh.positions[mesh.indices[f + 2]] - mesh.positions[mesh.indices[f]])
+                                   .z) /
+           2;
+  return sum;
+}
+
+TEST(EdgeRemovalTexture, AnOutlineAboveTheLimitIsLeftAsItWas) {
+  // Of a regular polygon of n sides of length c, turned by w = 2 pi / n from side to side, eq. (2) is 2 c^2 sin w.
+  const Mesh mesh = disc(24);
+  const double w = 6.283185307179586 / 24, c = 2 * std::sin(w / 2), value = 2 * c * c * std::sin(w);
+  const double share = value / 8;  // the squared diagonal is 2^2 + 2^2
+  for (const BoundaryAnswer answer : {BoundaryAnswer::kRefuse, BoundaryAnswer::kLimitMovement}) {
+    SimplifyOptions options = options_of(2);
+    options.edge_removal.boundary_answer = answer;
+    // Moving the vertex instead to one of the ends changes half of it.
+    const double least = answer == BoundaryAnswer::kRefuse ? share : share / 2;
+    options.edge_removal.boundary_limit = static_cast<float>(least * 0.998);
+    const Thinned kept = thin(mesh, options);
+    EXPECT_EQ(topology_of(kept.mesh).border_edges, 24u);
+    EXPECT_EQ(kept.mesh.face_count(), 22u) << "no vertex inside is left";
+    EXPECT_EQ(kept.outcome.stop, StopReason::kNoCollapseAllowed);
+    EXPECT_NEAR(area_of(kept.mesh), area_of(mesh), 1e-6);
+
+    options.edge_removal.boundary_limit = static_cast<float>(least * 1.002);
+    const Thinned gone = thin(mesh, options);
+    EXPECT_LT(topology_of(gone.mesh).border_edges, 24u);
+    // Each removal takes or adds two triangles of half what eq. (2) says, at most.
+    const double removed = 24 - static_cast<double>(topology_of(gone.mesh).border_edges);
+    EXPECT_LE(std::fabs(area_of(mesh) - area_of(gone.mesh)), removed * least * 8 / 2 * 1.01);
+  }
+}
+
+TEST(EdgeRemovalTexture, TheMovementStopsAtTheLimit) {
+  // 0 - 1 - 2 - 3 is the outline; eq. (2)'s terms for the edge 1-2 are 1 before and 0.25 after it:
+  // E = (1, 0), L = (1, 1) and (2, -0.25). Everything else about it is straight, and no other edge may go.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 1, 0}, {2, 1, 0}, {4, 0.75f, 0}, {4, 0, 0}, {2, 0, 0}, {1, 0, 0}};
+  mesh.indices = {0, 6, 1, 6, 5, 1, 1, 5, 2, 5, 4, 2, 4, 3, 2};
+  const float squared_diagonal = 16 + 1;
+  std::vector<float> values(mesh.positions.size(), 0.0f);
+  for (const std::size_t v : {0u, 3u, 4u, 5u, 6u}) values[v] = kLockedEdgeValue;
+  const auto placed_at = [&](float limit) {
+    Mesh copy = mesh;
+    RoomyLog room(mesh);
+    SimplifyOptions options = options_of(4);
+    options.edge_removal.placement = EdgePlacement::kMidpoint;
+    options.edge_removal.boundary_limit = limit / squared_diagonal;
+    options.log = &room.log;
+    std::vector<std::byte> memory(edge_removal_scratch_bytes(7, 5));
+    Arena scratch(memory);
+    WorkingMesh working{.positions = copy.positions, .edge_values = values, .indices = copy.indices, .vertex_count = 7,
+                        .face_count = 5};
+    EXPECT_TRUE(simplify(working, options, scratch).ok());
+    return room.log.added().empty() ? -9.0f : room.log.added()[0].position.x - 1;
+  };
+  EXPECT_FLOAT_EQ(placed_at(2), 0.5f);
+  EXPECT_FLOAT_EQ(placed_at(0.5f), 1.0f / 3) << "t + (1 - t) / 4 = 1/2";
+  EXPECT_NEAR(placed_at(0.2501f), 0, 2e-4f);
+  EXPECT_EQ(placed_at(0.2f), -9) << "refused";
+}
+
+TEST(EdgeRemovalTexture, GroupsOfMaterialsAreImages) {
+  // A sheet of two materials that meet at x = 4, without texture coordinates; the border between them keeps its place.
+  Mesh mesh;
+  std::vector<MaterialGroup> groups;
+  for (const bool right : {false, true}) {
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    const Mesh half = grid(4, 8);
+    for (const Vec3 p : half.positions) mesh.positions.push_back({right ? p.x + 4 : p.x, p.y, 0});
+    for (const std::uint32_t i : half.indices) mesh.indices.push_back(base + i);
+    groups.push_back(
+        {static_cast<std::uint32_t>(mesh.face_count()), static_cast<std::uint32_t>(mesh.positions.size())});
+  }
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size()),
+             faces = static_cast<std::uint32_t>(mesh.face_count());
+  std::vector<std::byte> memory(edge_removal_scratch_bytes(vertices, faces));
+  Arena scratch(memory);
+  WorkingMesh working{.positions = mesh.positions, .groups = groups, .indices = mesh.indices, .vertex_count = vertices,
+                      .face_count = faces};
+  ASSERT_TRUE(simplify(working, options_of(4), scratch).ok());
+  EXPECT_EQ(working.face_count, 4u);
+  for (std::uint32_t v = 0; v < working.vertex_count; ++v) {
+    const float x = mesh.positions[v].x;
+    EXPECT_TRUE(v < groups[0].vertex_end ? x == 0 || x == 4 : x == 4 || x == 8) << v << ' ' << x;
+  }
+}
+
+TEST(EdgeRemovalTexture, BeyondAnEndCoordinatesGoOnAndColoursStopAtTheirRange) {
+  EXPECT_EQ(mixed(TexCoord{1, 2}, TexCoord{2, 6}, -0.25f), (TexCoord{0.75f, 1}));
+  EXPECT_EQ(mixed(TexCoord{1, 2}, TexCoord{2, 6}, 1.25f), (TexCoord{2.25f, 7}));
+  EXPECT_EQ(mixed(rgba8(10, 200, 0, 255), rgba8(210, 0, 0, 255), -0.25f), rgba8(0, 250, 0, 255));
+  EXPECT_EQ(mixed(rgba8(10, 200, 0, 255), rgba8(210, 0, 0, 255), 1.25f), rgba8(255, 0, 0, 255));
+  const TexCoord far = mixed(TexCoord{3e38f, -3e38f}, TexCoord{-3e38f, 3e38f}, -0.25f);
+  EXPECT_TRUE(std::isfinite(far.s) && std::isfinite(far.t));
 }
 
 }  // namespace
