@@ -306,6 +306,19 @@ TEST(EdgeRemoval, ByTheAuthorsWordAloneTheLeastValuedGoFirst) {
   EXPECT_EQ(kept(thinned), kept(mesh));
 }
 
+// With the same value everywhere and nothing else to go by, the shortest edges go and the surface stays even. Vertices
+// that lost their value on the way would draw the removals to themselves.
+TEST(EdgeRemoval, TheVertexThatStaysKeepsTheLargerValue) {
+  const Mesh mesh = icosphere(3);
+  SimplifyOptions options{.target_faces = 640, .method = Method::kEdgeRemoval};
+  options.edge_removal.computed_weight = 0;
+  const Mesh thinned = thinned_with_values(mesh, std::vector<float>(mesh.positions.size(), 1.0f), options);
+  double longest = 0;
+  for (const auto& [a, b] : edges_of(thinned))
+    longest = std::max(longest, length_of(minus(point(thinned.positions[a]), point(thinned.positions[b]))));
+  EXPECT_LT(longest, 3 * 0.16) << "0.16 is the mean edge of the mesh as given";
+}
+
 TEST(EdgeRemoval, FlatNormalsOfACubeAreNoBoundaries) {
   const Thinned thinned = thin(with_flat_normals(cube(6)), {.target_faces = 12, .method = Method::kEdgeRemoval});
   EXPECT_EQ(thinned.mesh.face_count(), 12u);
