@@ -4,6 +4,7 @@
 #include "firmware/simplify/half_edge/half_edge.h"
 #include "firmware/simplify/qem/qem.h"
 #include "firmware/simplify/surface.h"
+#include "firmware/simplify/vertex_deletion/vertex_deletion.h"
 
 namespace usuzumi::firmware {
 
@@ -15,9 +16,9 @@ Result<SimplifyOutcome> simplify(WorkingMesh& mesh, const SimplifyOptions& optio
     case Method::kQem: return simplify_qem(mesh, options, scratch);
     case Method::kEdgeRemoval: return simplify_edge_removal(mesh, options, scratch);
     case Method::kHalfEdge: return simplify_half_edge(mesh, options, scratch);
-    case Method::kVertexDeletion: break;
+    case Method::kVertexDeletion: return simplify_vertex_deletion(mesh, options, scratch);
   }
-  return Status{StatusCode::kUnsupported, "thinning method of a later release",
+  return Status{StatusCode::kUnsupported, "no such thinning method",
                 static_cast<std::uint32_t>(options.method)};
 }
 
@@ -27,7 +28,7 @@ std::uint64_t simplify_scratch_bytes(Method method, std::uint32_t vertex_count, 
     case Method::kQem: return qem_scratch_bytes(vertex_count, face_count, has_texture_coordinates);
     case Method::kEdgeRemoval: return edge_removal_scratch_bytes(vertex_count, face_count);
     case Method::kHalfEdge: return half_edge_scratch_bytes(vertex_count, face_count);
-    case Method::kVertexDeletion: break;
+    case Method::kVertexDeletion: return vertex_deletion_scratch_bytes(vertex_count, face_count);
   }
   return 0;
 }

@@ -1,0 +1,118 @@
+#include "firmware/simplify/vertex_deletion/delete_vertex.h"
+
+namespace usuzumi::firmware {
+namespace {
+
+void link_corner(Surface& s, std::uint32_t v, Corner c) {
+  s.links[c] = s.first_corner(v);
+  s.vertices[v].first_corner = c;
+}
+
+void unlink_rim(Surface& s, Corner at_vertex) {
+  for (const Corner c : {next_in_face(at_vertex), previous_in_face(at_vertex)}) unlink_corner(s, s.vertex_at(c), c);
+}
+
+void name(Surface& s, Corner c, std::uint32_t wedge, std::uint32_t v, CollapseLog* log) {
+  std::uint32_t& index = s.indices[corner_index(c)];
+  if (log != nullptr && index != wedge) log->change(static_cast<std::uint32_t>(corner_index(c)), index, wedge);
+  index = wedge;
+  link_corner(s, v, c);
+}
+
+PackedNormal face_direction(const Surface& s, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const Vec3 normal = cross(s.position(b) - s.position(a), s.position(c) - s.position(a));
+  const float l = length(normal);
+  return l > 0 ? pack_normal(normal * (1.0f / l)) : PackedNormal{0};
+}
+
+// One sector's fill. Faces whose slots are left over go to `dead`; returns how many.
+std::uint32_t fill_sector(Surface& s, const Ring& ring, const Sector& sector, std::uint32_t fill, Corner* dead,
+                          CollapseLog* log) {
+  const std::uint32_t* wedges = ring.wedges + sector.first_corner;
+  const std::uint32_t* vertices = ring.vertices + sector.first_corner;
+  const Corner* corners = ring.corners + sector.first_face;
+  const bool closed = sector.corner_count == sector.face_count;  // its last side is that of its last face
+  bool taken[kMostRingFaces] = {};
+  FillTriangle inner[kMostCorners];  // without a side on the polygon
+  std::uint32_t inner_count = 0;
+  for (std::uint32_t t = 0; t + 2 < sector.corner_count; ++t) {
+    const FillTriangle f = fill_triangle(sector.corner_count, fill, t);
+    std::uint32_t face = kMostRingFaces, apex = 0;
+    if (f.b == f.a + 1) face = f.a, apex = f.c;
+    else if (f.c == f.b + 1) face = f.b, apex = f.a;
+    else if (closed && f.a == 0 && f.c + 1u == sector.face_count) face = f.c, apex = f.b;
+    if (face == kMostRingFaces) {
+      inner[inner_count++] = f;
+      continue;
+    }
+    taken[face] = true;
+    name(s, corners[face], wedges[apex], vertices[apex], log);
+  }
+  std::uint32_t dead_count = 0;
+  for (std::uint32_t face = 0; face < sector.face_count; ++face) {
+    if (taken[face]) continue;
+    const Corner c = corners[face];
+    unlink_rim(s, c);
+    if (inner_count == 0) {
+      dead[dead_count++] = c;
+      continue;
+    }
+    const FillTriangle f = inner[--inner_count];
+    name(s, c, wedges[f.a], vertices[f.a], log);
+    name(s, next_in_face(c), wedges[f.b], vertices[f.b], log);
+    name(s, previous_in_face(c), wedges[f.c], vertices[f.c], log);
+    s.set_facing(c, face_direction(s, vertices[f.a], vertices[f.b], vertices[f.c]));
+  }
+  return dead_count;
+}
+
+// The polygon corner, within the first sector, whose vertex is nearest.
+std::uint32_t heir_of(const Surface& s, const Ring& ring) {
+  const std::uint32_t last = ring.sectors[0].corner_count - 1;
+  const std::uint32_t step = ring.has_closing_edge() ? last : 1;
+  std::uint32_t nearest = 0;
+  float least = 0;
+  for (std::uint32_t i = 0; i <= last; i += step) {
+    const Vec3 way = s.position(ring.vertices[i]) - s.position(ring.vertex);
+    const float squared = dot(way, way);
+    if (i > 0 && !(squared < least)) continue;
+    nearest = i;
+    least = squared;
+  }
+  return nearest;
+}
+
+void tell_successions(const Surface& s, const Ring& ring, CollapseLog& log) {
+  const std::uint32_t heir = heir_of(s, ring);
+  const std::uint32_t one = s.indices[corner_index(ring.corners[0])];
+  log.succeed(one, ring.wedges[heir]);
+  if (!ring.has_seam()) return;
+  const Sector& sector = ring.sectors[1];
+  const std::uint32_t other = s.indices[corner_index(ring.corners[sector.first_face])];
+  // The second sector runs along the seam the other way.
+  if (other != one) log.succeed(other, ring.wedges[sector.first_corner + (heir == 0 ? sector.corner_count - 1 : 0)]);
+}
+
+}  // namespace
+
+std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8_t fills[2], CollapseLog* log) {
+  if (log != nullptr) {
+    log->begin_step();
+    tell_successions(surface, ring, *log);
+  }
+  Corner dead[kMostRingFaces];
+  std::uint32_t dead_count = 0;
+  for (std::uint32_t k = 0; k < ring.sector_count; ++k)
+    dead_count += fill_sector(surface, ring, ring.sectors[k], fills[k], dead + dead_count, log);
+  for (std::uint32_t i = 0; i < dead_count; ++i) {
+    const std::uint32_t face = dead[i] >> 2;
+    surface.indices[std::size_t{face} * 3] = kDeadFace;
+    for (std::uint32_t k = 0; k < 3; ++k) surface.links[face * 4 + k] = kNoCorner;
+    if (log != nullptr) log->remove_face(face);
+  }
+  surface.vertices[ring.vertex].first_corner = kNoCorner;
+  if (log != nullptr) log->end_step();
+  return dead_count;
+}
+
+}  // namespace usuzumi::firmware
