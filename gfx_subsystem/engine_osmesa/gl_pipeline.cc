@@ -8,7 +8,7 @@ namespace {
 using namespace command;
 
 // Vertex attributes; position is 0, which the compatibility profile wants enabled in every draw.
-constexpr GLuint kPosition = 0, kNormal = 1, kColour = 2;
+constexpr GLuint kPosition = 0, kNormal = 1, kColour = 2, kTextureCoordinate = 3;
 
 // Row 0 of the framebuffer is the panel's top (gl_surface.h), hence -clip.y.
 constexpr const char* kVertexShader = R"(#version 120
@@ -18,15 +18,27 @@ uniform vec3 to_light, ambient, diffuse;
 attribute vec3 position;
 attribute vec3 normal;
 attribute vec4 colour;
+attribute vec2 texture_coordinate;
 void main() {
   vec4 clip = model_to_clip * vec4(position, 1.0);
   gl_Position = vec4(clip.x, -clip.y, clip.z, clip.w);
   vec3 light = vec3(1.0);
   if (lit) light = min(vec3(1.0), ambient + diffuse * max(0.0, dot(max(normal, vec3(-1.0)), to_light)));
-  gl_FrontColor = vec4(colour.rgb * light, 1.0);
+  gl_FrontColor = vec4(colour.rgb * light, colour.a);
+  gl_TexCoord[0] = vec4(texture_coordinate, 0.0, 1.0);
 })";
+// The alpha test compares whole channels, as the engine has them. Bits 31-24 of a pixel that is not blended
+// become 0xFF.
 constexpr const char* kFragmentShader = R"(#version 120
-void main() { gl_FragColor = gl_Color; })";
+uniform bool textured, blended;
+uniform float alpha_reference;
+uniform sampler2D image;
+void main() {
+  vec4 c = gl_Color;
+  if (textured) c *= texture2D(image, gl_TexCoord[0].st);
+  if (floor(c.a * 255.0 + 0.5) < alpha_reference) discard;
+  gl_FragColor = vec4(c.rgb, blended ? c.a : 1.0);
+})";
 
 GLuint compile(GLenum type, const char* source) {
   const GLuint shader = glCreateShader(type);
@@ -84,6 +96,7 @@ Status GlPipeline::start() {
   glBindAttribLocation(program_, kPosition, "position");
   glBindAttribLocation(program_, kNormal, "normal");
   glBindAttribLocation(program_, kColour, "colour");
+  glBindAttribLocation(program_, kTextureCoordinate, "texture_coordinate");
   glLinkProgram(program_);
   glDeleteShader(vertex);
   glDeleteShader(fragment);
@@ -96,6 +109,9 @@ Status GlPipeline::start() {
   to_light_ = glGetUniformLocation(program_, "to_light");
   ambient_ = glGetUniformLocation(program_, "ambient");
   diffuse_ = glGetUniformLocation(program_, "diffuse");
+  textured_ = glGetUniformLocation(program_, "textured");
+  blended_ = glGetUniformLocation(program_, "blended");
+  alpha_reference_ = glGetUniformLocation(program_, "alpha_reference");
   glGenQueries(1, &query_);
   glDisable(GL_DITHER);
   // Points are squares around the exact vertex; without this OpenGL moves them to whole pixels.
@@ -128,16 +144,23 @@ std::uint64_t GlPipeline::draw(const EngineState& state, const DrawCall& call) {
   glUseProgram(program_);
   apply_uniforms(state);
   apply_streams(state);
-  const bool hides = state.raster.depth_test != 0 && state.raster.depth_function != DepthFunction::kAlways;
+  if (!state.texels.empty()) texture_.bind(state);
+  const bool tests_alpha = state.fragment.alpha_test != 0;
+  const bool hides =
+      tests_alpha || (state.raster.depth_test != 0 && state.raster.depth_function != DepthFunction::kAlways);
   std::uint64_t pixels_covered = 0;
-  if (hides) {  // covered pixels that the depth test will hide count too: drawn once to be counted, once to be seen
+  glUniform1f(alpha_reference_, 0);
+  if (hides) {  // covered pixels that the tests will hide count too: drawn once to be counted, once to be seen
     glDisable(GL_DEPTH_TEST);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     pixels_covered = submit_counted(call);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   apply_depth_state(state.raster);
+  if (tests_alpha) glUniform1f(alpha_reference_, static_cast<float>(state.fragment.alpha_reference));
+  apply_blend_state(state.fragment);
   const std::uint64_t pixels_drawn = submit_counted(call);
+  glDisable(GL_BLEND);
   return hides ? pixels_covered : pixels_drawn;
 }
 
@@ -162,9 +185,17 @@ void GlPipeline::apply_depth_state(const SetRasterState& raster) {
   glDepthMask(boolean(raster.depth_write != 0));
 }
 
+/// Alpha adds up, so that bits 31-24 that were 0xFF stay so.
+void GlPipeline::apply_blend_state(const SetFragmentState& fragment) {
+  enable(GL_BLEND, fragment.blend == BlendMode::kAlpha);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
+}
+
 void GlPipeline::apply_uniforms(const EngineState& state) {
   glUniformMatrix4fv(model_to_clip_, 1, GL_TRUE, state.transform.model_to_clip.m);
   glUniform1i(lit_, state.light.enabled != 0 && !state.normals.empty() ? 1 : 0);
+  glUniform1i(textured_, state.texels.empty() ? 0 : 1);
+  glUniform1i(blended_, state.fragment.blend == BlendMode::kAlpha ? 1 : 0);
   const auto set = [](GLint uniform, Vec3 v) { glUniform3f(uniform, v.x, v.y, v.z); };
   set(to_light_, state.light.to_light);
   set(ambient_, state.light.ambient);
@@ -175,6 +206,7 @@ void GlPipeline::apply_streams(const EngineState& state) {
   const auto stride = [](std::uint32_t bytes) { return static_cast<GLsizei>(bytes); };
   glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride(state.streams.position_stride),
                         state.positions.data());
+  apply_texture_coordinates(state);
   if (state.normals.empty()) {
     glDisableVertexAttribArray(kNormal);
   } else {
@@ -192,6 +224,14 @@ void GlPipeline::apply_streams(const EngineState& state) {
     glVertexAttribPointer(kColour, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride(state.streams.colour_stride),
                           state.colours.data());
   }
+}
+
+void GlPipeline::apply_texture_coordinates(const EngineState& state) {
+  if (state.texture_coordinates.empty()) return glDisableVertexAttribArray(kTextureCoordinate);
+  glEnableVertexAttribArray(kTextureCoordinate);
+  glVertexAttribPointer(kTextureCoordinate, 2, GL_FLOAT, GL_FALSE,
+                        static_cast<GLsizei>(state.streams.texture_coordinate_stride),
+                        state.texture_coordinates.data());
 }
 
 std::uint64_t GlPipeline::submit_counted(const DrawCall& call) {

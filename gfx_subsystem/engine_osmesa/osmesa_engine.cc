@@ -51,7 +51,11 @@ class GlSink final : public CommandSink {
     counters_.primitives_in += primitive_count(call.draw);
     counters_.faces_in += face_count(call.draw.topology, call.draw.count);
     counters_.faces_drawn += count_faces_drawn(state, call);
-    counters_.pixels_tested += pipeline_.draw(state, call);
+    const std::uint64_t pixels = pipeline_.draw(state, call);
+    counters_.pixels_tested += pixels;
+    if (!state.texels.empty())
+      counters_.texels_fetched += pixels * (state.texture.filter == TextureFilter::kBilinear ? 4 : 1);
+    if (state.fragment.blend == BlendMode::kAlpha) counters_.pixels_blended += pixels;
     return ok_status();
   }
 
@@ -102,6 +106,7 @@ class OsmesaEngine::Implementation {
       report.status = {StatusCode::kUnavailable, "OSMesa cannot make its context current on this thread", 0};
       return report;
     }
+    pipeline_->begin_list();
     GlSink sink(*surface_, *pipeline_, report.counters);
     report.status = decode(list, memory, sink, report.counters.command_words);
     surface_->store();  // whatever stopped the list, what was drawn before stays drawn
