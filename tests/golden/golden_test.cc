@@ -93,7 +93,7 @@ TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
                           draw_well(GetParam(), engine, scenes::kOtherBackground).picture};
   };
   const TwoBackgrounds ours = over_both(soft_engine()), peers = over_both(osmesa_engine());
-  const PeerComparison c = compare_with_peer(ours, peers);
+  const PeerComparison c = compare_with_peer(ours, peers, GetParam().peer.channel);
   EXPECT_GT(c.covered, 0u) << "a scene that draws nothing proves nothing";
   RecordProperty("covered", static_cast<int>(c.covered));
   RecordProperty("covered_by_one", static_cast<int>(c.covered_by_one));
@@ -101,9 +101,10 @@ TEST_P(GoldenScene, OsmesaCoversAndColoursTheSame) {
   RecordProperty("worst", static_cast<int>(c.worst));
   EXPECT_TRUE(c.coverage_ok()) << c.covered_by_one << " of " << c.covered
                                << " pixels are covered by one engine only; first at " << c.first_coverage;
-  EXPECT_TRUE(c.colour_ok()) << c.beyond_tolerance << " of " << c.compared << " pixels differ by more than "
-                             << kChannelTolerance << ", by up to " << c.worst << "; first at " << c.first_colour;
-  if (c.coverage_ok() && c.colour_ok()) return;
+  const bool colour_ok = c.colour_ok(GetParam().peer.per_mille);
+  EXPECT_TRUE(colour_ok) << c.beyond_tolerance << " of " << c.compared << " pixels differ by more than "
+                             << GetParam().peer.channel << ", by up to " << c.worst << "; first at " << c.first_colour;
+  if (c.coverage_ok() && colour_ok) return;
   const std::string name = GetParam().name;
   std::filesystem::create_directories(kFailures);
   sim::write_png(kFailures / (name + ".soft.png"), ours.first);
@@ -120,6 +121,10 @@ TEST_P(GoldenScene, EnginesCountTheSameWork) {
   EXPECT_EQ(soft.primitives_in, osmesa.primitives_in);
   EXPECT_EQ(soft.faces_in, osmesa.faces_in);
   EXPECT_EQ(soft.pixels_cleared, osmesa.pixels_cleared);
+  EXPECT_NEAR(static_cast<double>(soft.texels_fetched), static_cast<double>(osmesa.texels_fetched),
+              static_cast<double>(osmesa.texels_fetched) * 0.001);
+  EXPECT_NEAR(static_cast<double>(soft.pixels_blended), static_cast<double>(osmesa.pixels_blended),
+              static_cast<double>(osmesa.pixels_blended) * 0.001);
   EXPECT_NEAR(static_cast<double>(soft.faces_drawn), static_cast<double>(osmesa.faces_drawn),
               static_cast<double>(osmesa.faces_drawn) * 0.01);
   EXPECT_NEAR(static_cast<double>(soft.pixels_tested), static_cast<double>(osmesa.pixels_tested),

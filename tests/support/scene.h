@@ -23,11 +23,17 @@ struct TargetSpec {
   std::uint32_t row_padding_bytes = 0;  // beyond the row rounded up to 4 bytes
 };
 
+/// How far another engine's colours may be from ours: pixels out of a thousand by more than `channel` of 255.
+struct PeerTolerance {
+  std::uint32_t channel = 2, per_mille = 5;
+};
+
 struct Scene {
   const char* name;  // "07-indexed-u32": the number, then words; names the PNG and the line in the manifest
   const char* note;  // what the scene proves
   TargetSpec target;
   std::function<void(SceneBuilder&)> build;
+  PeerTolerance peer = {};
 };
 
 /// All scenes in the order of their numbers.

@@ -26,6 +26,7 @@ void SceneBuilder::set_streams(const Mesh& mesh, Rgba8 constant) {
   if (!mesh.normals.empty()) streams.normals = store(mesh.normals);
   if (!mesh.colours.empty()) streams.colours = store(mesh.colours);
   streams.constant_colour = constant;
+  if (!mesh.texture_coordinates.empty()) streams.texture_coordinates = store(mesh.texture_coordinates);
   put(streams);
 }
 

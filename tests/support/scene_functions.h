@@ -45,4 +45,14 @@ void build_lit_sphere(SceneBuilder& b);
 void build_lit_torus(SceneBuilder& b);
 void build_cluster(SceneBuilder& b);
 
+// scene_textures.cc: textures, alpha test, blending
+void build_textured_cards(SceneBuilder& b);
+void build_texture_wraps(SceneBuilder& b);
+void build_texture_levels(SceneBuilder& b);
+void build_alpha_mask(SceneBuilder& b);
+void build_blending(SceneBuilder& b);
+void build_texture_formats(SceneBuilder& b);
+void build_globe(SceneBuilder& b);
+void build_textured_room(SceneBuilder& b);
+
 }  // namespace usuzumi::scenes

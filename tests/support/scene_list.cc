@@ -10,6 +10,12 @@ constexpr auto kNone = command::DepthFormat::kNone;
 constexpr auto kDepth16 = command::DepthFormat::kUnorm16;
 constexpr auto kDepth24 = command::DepthFormat::kUnorm24;
 
+// Engines take derivatives as they like (OSMesa's llvmpipe: one for each 2 x 2 pixels), so along the line where the
+// level changes a row of pixels may have the level beside it.
+constexpr PeerTolerance kLevels{2, 30};
+// A channel of 8 bits that is 1 off may round to the next step of 5 bits, which is 8 or 9 of 255.
+constexpr PeerTolerance kStepOf5Bits{9, 5};
+
 const Scene kScenes[] = {
     {"01-clear", "a clear of the whole target", {64, 48}, build_clear},
     {"02-scissored-clear", "clears fill the scissor rectangle, clipped to the target", {96, 64}, build_scissored_clear},
@@ -63,6 +69,18 @@ const Scene kScenes[] = {
      build_two_lists},
     {"33-cluster", "gauges, needles, telltales, a lit solid, a graph", {480, 272, kXrgb8888, kDepth24}, build_cluster},
     {"34-cluster-rgb565", "the same in 16 bits", {480, 272, kRgb565, kDepth16}, build_cluster},
+    {"35-textured-cards", "nearest and bilinear in perspective", {200, 140, kXrgb8888, kDepth24}, build_textured_cards},
+    {"36-texture-wraps", "repeat, clamp, mirror in both axes, an odd size", {196, 160}, build_texture_wraps},
+    {"37-texture-levels",
+     "levels from near to the horizon",
+     {240, 136, kXrgb8888, kDepth24},
+     build_texture_levels,
+     kLevels},
+    {"38-alpha-mask", "holes show what lies behind", {200, 140, kXrgb8888, kDepth24}, build_alpha_mask},
+    {"39-blending", "panes and soft spots before and behind", {200, 140, kXrgb8888, kDepth24}, build_blending},
+    {"40-texture-formats", "every format in odd sizes; points and lines", {200, 144}, build_texture_formats},
+    {"41-globe", "a map under light", {160, 160, kXrgb8888, kDepth24}, build_globe},
+    {"42-textures-rgb565", "textures on 16 bits", {200, 140, kRgb565, kDepth16}, build_textured_room, kStepOf5Bits},
 };
 
 }  // namespace

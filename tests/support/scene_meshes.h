@@ -8,11 +8,12 @@
 
 namespace usuzumi::scenes {
 
-/// Triangles by index. Normals and colours are empty or as many as positions.
+/// Triangles by index. Normals, colours and texture coordinates are empty or as many as positions.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<PackedNormal> normals;
   std::vector<Rgba8> colours;
+  std::vector<TexCoord> texture_coordinates;
   std::vector<std::uint32_t> indices;
 
   void add_vertex(Vec3 position, Rgba8 colour);

@@ -1,7 +1,9 @@
 #include "tests/support/scene_random.h"
 
+#include <bit>
 #include <cmath>
 
+#include "tests/support/scene_images.h"
 #include "tests/support/scene_math.h"
 
 namespace usuzumi::scenes {
@@ -11,15 +13,18 @@ using namespace command;
 
 class RandomScene {
  public:
-  RandomScene(SceneBuilder& b, std::uint64_t seed)
-      : b_(b), random_(seed), with_depth_(random_target(seed).depth != DepthFormat::kNone) {}
+  RandomScene(SceneBuilder& b, std::uint64_t seed, bool textured)
+      : b_(b), random_(seed), texture_random_(seed ^ 0x7E5), textured_(textured),
+        with_depth_(random_target(seed).depth != DepthFormat::kNone) {}
 
   void build() {
-    b_.clear_to_background();
+    if (textured_) b_.put(Clear{kClearColour | (with_depth_ ? kClearDepth : 0), rgba8(96, 64, 128), 1});
+    else b_.clear_to_background();
     const std::uint32_t draws = 1 + below(5);
     for (std::uint32_t i = 0; i < draws; ++i) {
       set_windows();
       set_state();
+      if (textured_) set_random_texture();
       draw(make_mesh());
       if (one_in(6)) b_.next_list();
     }
@@ -66,6 +71,25 @@ class RandomScene {
     }
   }
 
+  // Of a sequence of its own, so that the rest of the scene is as without textures.
+  void set_random_texture() {
+    const auto below = [this](std::uint32_t n) { return texture_random_.next() % n; };
+    const std::uint32_t width = 1 + below(60), height = 1 + below(40);
+    const bool levels = below(2) == 0;
+    const TexelImage image = levels ? hills(width, height) : noise(width, height, texture_random_);
+    const auto format = static_cast<TextureFormat>(1 + below(3));
+    const auto filter = static_cast<TextureFilter>(below(2));
+    const auto wrap_s = static_cast<TextureWrap>(below(3)), wrap_t = static_cast<TextureWrap>(below(3));
+    set_texture(b_, level_chain(image, levels ? 1 + below(static_cast<std::uint32_t>(std::bit_width(width))) : 1),
+                format, filter, wrap_s, wrap_t);
+    SetFragmentState state;
+    state.alpha_test = below(4) == 0 ? 1 : 0;
+    state.alpha_reference = below(256);
+    state.blend = below(4) == 0 ? BlendMode::kAlpha : BlendMode::kNone;
+    b_.put(state);
+    coordinate_reach_ = below(3) == 0 ? 4.0f : 1.0f;
+  }
+
   Vec3 place() {
     if (in_perspective_) {
       const float reach = one_in(10) ? 8.0f : 1.5f;
@@ -91,6 +115,10 @@ class RandomScene {
           near_last ? mesh.positions.back() + Vec3{between(-15, 15), between(-15, 15), between(-0.1f, 0.1f)} : place());
       mesh.colours.push_back(Rgba8{random_.next()});
       mesh.normals.push_back(pack_normal(normalized({between(-1, 1), between(-1, 1), between(-1, 1)})));
+      if (textured_) {
+        const float s = texture_random_.between(-coordinate_reach_, coordinate_reach_);
+        mesh.texture_coordinates.push_back({s, texture_random_.between(-coordinate_reach_, coordinate_reach_)});
+      }
     }
     if (one_in(4)) mesh.colours.clear();
     if (one_in(3)) mesh.normals.clear();
@@ -117,7 +145,9 @@ class RandomScene {
   }
 
   SceneBuilder& b_;
-  RandomSequence random_;
+  RandomSequence random_, texture_random_;
+  bool textured_;
+  float coordinate_reach_ = 1;
   bool with_depth_, in_perspective_ = false;
 };
 
@@ -135,6 +165,8 @@ TargetSpec random_target(std::uint64_t seed) {
   return target;
 }
 
-void build_random(SceneBuilder& b, std::uint64_t seed) { RandomScene(b, seed).build(); }
+void build_random(SceneBuilder& b, std::uint64_t seed) { RandomScene(b, seed, false).build(); }
+
+void build_random_textured(SceneBuilder& b, std::uint64_t seed) { RandomScene(b, seed, true).build(); }
 
 }  // namespace usuzumi::scenes

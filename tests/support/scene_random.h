@@ -14,4 +14,9 @@ TargetSpec random_target(std::uint64_t seed);
 /// far and behind the eye, under any raster state, light, scissor and whole-pixel viewport. Now and then a new list.
 void build_random(SceneBuilder& b, std::uint64_t seed);
 
+/// The same, every draw with a texture of any format, size, filter, wrap mode and number of levels (smooth where there
+/// are several), now and then with alpha test or blending, over a colour of its own: two backgrounds do not tell which
+/// pixels a blended draw covers, so that coverage shows as colour.
+void build_random_textured(SceneBuilder& b, std::uint64_t seed);
+
 }  // namespace usuzumi::scenes
