@@ -48,8 +48,10 @@ Mesh thinned_at_random(const Mesh& given, std::uint32_t target, unsigned seed, C
     n.b = surface.surface.vertex_at(next_in_face(edge));
     const Vec3 middle = (surface.surface.position(n.a) + surface.surface.position(n.b)) * 0.5f;
     if (!rules.keeps_topology(n) || rules.turns_a_face(n, middle)) continue;
+    const std::uint32_t singular = (places[n.a].mark | places[n.b].mark) & kSingular;
     const CollapsedEdge collapsed = collapse_edge(surface.surface, surface.seam_map, surface.attributes, n, {});
-    surface.surface.places[collapsed.vertex].position = middle;
+    places[collapsed.vertex].position = middle;
+    places[collapsed.vertex].mark |= singular;
     left -= collapsed.faces_removed;
     recorder.record(collapsed);
   }
