@@ -71,7 +71,9 @@ class HalfEdgeSimplifier {
   void allow_again_at(std::uint32_t v);
 
   bool log_is_full() const { return options_.log != nullptr && options_.log->full(); }
-  std::uint32_t refused_ways(Corner edge) const { return refused_[edge >> 2] >> (2 * (edge & 3)) & kBothRefused; }
+  std::uint32_t refused_ways(Corner edge) const {
+    return std::uint32_t{refused_[edge >> 2]} >> (2 * (edge & 3)) & kBothRefused;
+  }
   void allow_both_ways(Corner edge) {
     std::uint8_t& ways = refused_[edge >> 2];
     ways = static_cast<std::uint8_t>(ways & ~(kBothRefused << (2 * (edge & 3))));
