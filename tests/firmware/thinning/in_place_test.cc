@@ -72,6 +72,22 @@ TEST(InPlace, TheCopyHoldsIndicesAloneAndDrawsTheSameFaces) {
   }
 }
 
+TEST(InPlace, VertexDeletionLeavesItsVerticesInRomToo) {
+  TestMesh mesh = with_normals(mapped_hills(12, 3, 0));
+  mesh.method = firmware::format::Method::kVertexDeletion;
+  const BothWays both(mesh);
+  ASSERT_TRUE(both.in_place.copy().mesh(0).vertices_in_rom);
+  ASSERT_LT(both.in_place.copy().mesh(0).faces, 288u);
+  const auto indices = both.in_place.indices(0), of_apart = both.apart.indices(0);
+  const auto places = both.apart.positions(0);
+  const auto coordinates = both.apart.stream<TexCoord>(0, both.apart.copy().mesh(0).texture_coordinate_offset);
+  ASSERT_EQ(indices.size(), of_apart.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    EXPECT_EQ(mesh.positions[indices[i]], places[of_apart[i]]);
+    EXPECT_EQ(mesh.texture_coordinates[indices[i]], coordinates[of_apart[i]]);
+  }
+}
+
 TEST(InPlace, TheReportSaysWhatStayedInRom) {
   const BothWays both(by_half_edge(with_normals(mapped_hills(12, 3, 0))));
   const auto indices = both.in_place.indices(0);
