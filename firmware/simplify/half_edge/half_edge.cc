@@ -178,9 +178,8 @@ bool HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
 
   if (options_.log != nullptr) options_.log->begin_step();
   replace_wedges(half_edge, matching);
-  const std::uint32_t singular = surface_.places[n.a].mark & kSingular;
+  // A singular vertex goes along a border or not at all, to another one: the mark need not be carried over.
   const CollapsedEdge collapsed = collapse_half_edge(surface_, n);
-  surface_.places[n.b].mark |= singular;
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;
   if (options_.log != nullptr) options_.log->end_step();

@@ -64,10 +64,23 @@ TEST(HalfEdge, WhatIsLeftAreVerticesOfTheMeshAsGivenToTheBit) {
 }
 
 TEST(HalfEdge, MinusZeroStaysWhatItWas) {
-  Mesh mesh = grid(4, 4);
-  for (Vec3& p : mesh.positions) p.z = -0.0f;
-  const Thinned thinned = thin_half_edge(mesh, 2);
-  for (const Vec3 p : thinned.mesh.positions) EXPECT_TRUE(std::signbit(p.z));
+  // Two materials that meet at x = 2, where the left one's z is -0 and the right one's 0: one vertex, two wedges.
+  const Mesh sheet = grid(4, 4);
+  Mesh mesh;
+  for (std::size_t i = 0; i < sheet.indices.size(); i += 3) {
+    float right = 0;
+    for (std::size_t k = 0; k < 3; ++k) right = std::max(right, sheet.positions[sheet.indices[i + k]].x);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = sheet.positions[sheet.indices[i + k]];
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back({p.x, p.y, right > 2 ? 0.0f : -0.0f});
+      mesh.colours.push_back({right > 2 ? 1u : 2u});
+    }
+  }
+  const Thinned thinned = thin_half_edge(mesh, 4);
+  EXPECT_EQ(thinned.mesh.face_count(), 4u);
+  for (std::size_t v = 0; v < thinned.mesh.positions.size(); ++v)
+    EXPECT_EQ(std::signbit(thinned.mesh.positions[v].z), thinned.mesh.colours[v].bits == 2) << v;
 }
 
 double area_of(const Mesh& mesh) {
@@ -193,6 +206,42 @@ TEST(HalfEdge, TheScaleDoesNotMatter) {
     EXPECT_EQ(thinned.mesh.indices, expected.mesh.indices) << scale;
     EXPECT_EQ(thinned.mesh.texture_coordinates, expected.mesh.texture_coordinates) << scale;
     EXPECT_EQ(thinned.outcome.max_error, expected.outcome.max_error * scale);
+  }
+}
+
+TEST(HalfEdge, NoFaceEverTakesAVertexOfAnotherMaterial) {
+  // Three materials of a flat sheet meet in its middle. Where nothing else is left, that vertex would go to the border,
+  // at the end of the seam of two: the third has no vertex there.
+  const Mesh sheet = grid(8, 8);
+  Mesh mesh;
+  firmware::MaterialGroup ends[3];
+  for (std::uint32_t group = 0; group < 3; ++group) {
+    for (std::size_t i = 0; i < sheet.indices.size(); i += 3) {
+      const Vec3 thrice_centre = sheet.positions[sheet.indices[i]] + sheet.positions[sheet.indices[i + 1]] +
+                                 sheet.positions[sheet.indices[i + 2]];
+      if ((thrice_centre.y > 12 ? 0u : (thrice_centre.x < 12 ? 1u : 2u)) != group) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.push_back(sheet.positions[sheet.indices[i + k]]);
+      }
+    }
+    ends[group] = {static_cast<std::uint32_t>(mesh.face_count()), static_cast<std::uint32_t>(mesh.positions.size())};
+  }
+  std::vector<std::byte> memory(firmware::half_edge_scratch_bytes(ends[2].vertex_end, ends[2].face_end));
+  Arena scratch(memory);
+  firmware::WorkingMesh working{.positions = mesh.positions,
+                                .groups = ends,
+                                .indices = mesh.indices,
+                                .vertex_count = ends[2].vertex_end,
+                                .face_count = ends[2].face_end};
+  const auto outcome = firmware::simplify_half_edge(working, {.target_faces = 0}, scratch);
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.value().stop, StopReason::kNoCollapseAllowed);
+  for (std::uint32_t i = 0; i < working.face_count * 3; ++i) {
+    const auto group = [&](std::uint32_t at, auto end) { return at < ends[0].*end ? 0 : (at < ends[1].*end ? 1 : 2); };
+    ASSERT_LT(mesh.indices[i], working.vertex_count);
+    EXPECT_EQ(group(mesh.indices[i], &firmware::MaterialGroup::vertex_end),
+              group(i / 3, &firmware::MaterialGroup::face_end));
   }
 }
 
