@@ -75,8 +75,8 @@ class Sampler {
     const std::byte* texels;
     std::int32_t width, height, pitch;
     [[gnu::always_inline]] Level(const TextureSetup& t, std::int32_t level)
-        : texels(t.texels + t.offset[level]), width(std::max(t.width >> level, 1)),
-          height(std::max(t.height >> level, 1)),
+        : texels(t.texels + t.offset[level]), width(std::max<std::int32_t>(t.width >> level, 1)),
+          height(std::max<std::int32_t>(t.height >> level, 1)),
           pitch(t.format == command::TextureFormat::kRgb565 ? (width * 2 + 3) & ~3 : width * 4) {}
   };
 
