@@ -3,14 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/simplify/vertex_deletion/angle.h"
-
 namespace usuzumi::firmware {
 namespace {
 
 constexpr float kLeastCosine = 0.2f;
-constexpr float kLeastMeanNormal = 1e-3f;
-// Squared ratio of twice a face's area to the square of its longest side; see collapse_rules.cc.
+// See collapse_rules.cc.
 constexpr float kSliverSquared = 1e-4f;
 constexpr float kSliverWorseSquared = 0.25f;
 constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -20,31 +17,17 @@ float larger(float a, float b) { return a > b ? a : b; }
 float smaller(float a, float b) { return a < b ? a : b; }
 float absolute(float a) { return a < 0 ? -a : a; }
 
-float sliverness(Vec3 a, Vec3 b, Vec3 c, float squared_double_area) {
-  const Vec3 u = b - a, v = c - b, w = a - c;
-  const float side = larger(larger(dot(u, u), dot(v, v)), dot(w, w));
-  return side > 0 ? squared_double_area / (side * side) : 0.0f;
-}
-
-float texture_area(TexCoord a, TexCoord b, TexCoord c) {
-  return (b.s - a.s) * (c.t - a.t) - (c.s - a.s) * (b.t - a.t);
-}
-
-// A sector as it is before the deletion. Positions are relative to the vertex.
-struct SectorShape {
-  std::uint32_t corner_count = 0;
-  bool closing_edge = false;
-  Vec3 corners[kMostCorners + 1];
-  TexCoord texture[kMostCorners + 1];
-  Vec3 facing[kMostRingFaces];
-  const std::uint32_t* taken = nullptr;
-  float area = 0;
-  Vec3 weighted_normals;   // sum theta_i n_i
-  float angles = 0;        // sum theta_i
-  Vec3 mean_normal, mean_direction;
-  float worst_sliver = kFar;
-  float texture_side = 0;  // 1 or -1 where all faces lie on the texture that way round, else 0
+// Of two corners of the polygon: what the triangles that share them have in common.
+struct Pair {
+  Vec3 swept;           // first x second: a triangle's doubled area vector is the sum of those along its sides
+  float passed = 0;     // >= 0: the line along the mean normal passes left of the way from the first to the second
+  float squared = 0;    // distance
 };
+
+Pair measure_pair(const RingShape& ring, Vec3 a, Vec3 b) {
+  const Vec3 swept = cross(a, b), way = b - a;
+  return {swept, dot(ring.direction, swept), dot(way, way)};
+}
 
 // What one new face contributes.
 struct Part {
@@ -52,100 +35,64 @@ struct Part {
   float area = 0, normal = 0, distance = kFar;
 };
 
-struct FillSums {
-  bool allowed = false;
-  float area = 0, normal = 0, largest = 0, distance = kFar;
-};
-
-void measure_faces(const Surface& s, const Ring& ring, const Sector& sector, SectorShape& shape) {
-  for (std::uint32_t i = 0; i < sector.face_count; ++i) {
-    const Vec3 p = shape.corners[i], q = shape.corners[i + 1 == shape.corner_count ? 0 : i + 1];
-    shape.facing[i] = unpack(s.facing(ring.corners[sector.first_face + i]));
-    const Vec3 normal = cross(p, q);
-    const float squared = dot(normal, normal), twice_area = std::sqrt(squared);
-    shape.worst_sliver = smaller(shape.worst_sliver, sliverness({}, p, q, squared));
-    const float theta = angle_rad(dot(p, q), twice_area);
-    shape.angles += theta;
-    if (!(twice_area > 0)) continue;  // without area, without normal
-    shape.area += twice_area * 0.5f;
-    shape.weighted_normals = shape.weighted_normals + normal * (theta / twice_area);
-  }
-}
-
-void measure_texture(const TexCoord* coordinates, const Surface& s, const Ring& ring, const Sector& sector,
-                     SectorShape& shape) {
-  for (std::uint32_t i = 0; i < sector.corner_count; ++i)
-    shape.texture[i] = coordinates[ring.wedges[sector.first_corner + i]];
-  const TexCoord at_vertex = coordinates[s.indices[corner_index(ring.corners[sector.first_face])]];
-  bool all_positive = true, all_negative = true;
-  for (std::uint32_t i = 0; i < sector.face_count; ++i) {
-    const float area =
-        texture_area(at_vertex, shape.texture[i], shape.texture[i + 1 == shape.corner_count ? 0 : i + 1]);
-    all_positive = all_positive && area > 0;
-    all_negative = all_negative && area < 0;
-  }
-  shape.texture_side = all_positive ? 1.0f : (all_negative ? -1.0f : 0.0f);
-}
-
-bool may_be(const SectorShape& sector, FillTriangle t, Vec3 normal, float squared, float twice_area) {
-  if (!(twice_area > 0)) return false;
-  if (!(dot(normal, sector.mean_direction) > kLeastCosine * twice_area)) return false;
+bool faces_on(const SectorShape& sector, const FillTriangle& t, Vec3 normal) {
   if (t.b == t.a + 1 && dot(normal, sector.facing[t.a]) < 0) return false;
   if (t.c == t.b + 1 && dot(normal, sector.facing[t.b]) < 0) return false;
-  const bool last_side = t.a == 0 && t.c + 1u == sector.corner_count;
-  if (last_side && !sector.closing_edge && dot(normal, sector.facing[t.c]) < 0) return false;
-  const float sliver =
-      sliverness(sector.corners[t.a], sector.corners[t.b], sector.corners[t.c], squared);
-  if (sliver < kSliverSquared && sliver < kSliverWorseSquared * sector.worst_sliver) return false;
-  if (sector.texture_side != 0 &&
-      !(sector.texture_side * texture_area(sector.texture[t.a], sector.texture[t.b], sector.texture[t.c]) > 0))
-    return false;
-  if (sector.taken == nullptr) return true;
-  const std::uint32_t from_a = 1u << t.b | 1u << t.c, from_b = 1u << t.c;
-  return (sector.taken[t.a] & from_a) == 0 && (sector.taken[t.b] & from_b) == 0;
+  const bool last_side = t.a == 0 && t.c + 1u == sector.corner_count && !sector.closing_edge;
+  return !(last_side && dot(normal, sector.facing[t.c]) < 0);
 }
 
-// `direction` is the unit mean normal of the whole ring.
-Part measure_triangle(const SectorShape& sector, FillTriangle t, Vec3 direction) {
-  const Vec3 a = sector.corners[t.a], b = sector.corners[t.b], c = sector.corners[t.c];
-  const Vec3 normal = cross(b - a, c - a);
+bool is_taken(const std::uint32_t* taken, const FillTriangle& t) {
+  const std::uint32_t from_a = 1u << t.b | 1u << t.c, from_b = 1u << t.c;
+  return ((taken[t.a] & from_a) | (taken[t.b] & from_b)) != 0;
+}
+
+bool turns_on_texture(const SectorShape& sector, const FillTriangle& t) {
+  return sector.texture_side != 0 &&
+         !(sector.texture_side * texture_area(sector.texture[t.a], sector.texture[t.b], sector.texture[t.c]) > 0);
+}
+
+// Inlined by force: this is where the time goes.
+[[gnu::always_inline]] inline Part measure_triangle(const RingShape& ring, const SectorShape& sector,
+                                                    const FillTriangle& t, const Pair& ab, const Pair& bc,
+                                                    const Pair& ac) {
+  const Vec3 normal = ab.swept + bc.swept - ac.swept;
   const float squared = dot(normal, normal), twice_area = std::sqrt(squared);
   Part part;
-  if (!may_be(sector, t, normal, squared, twice_area)) return part;
+  if (!(twice_area > 0) || !(dot(normal, sector.mean_direction) > kLeastCosine * twice_area)) return part;
+  const float longest = larger(larger(ab.squared, bc.squared), ac.squared);
+  const float limit = smaller(kSliverSquared, kSliverWorseSquared * sector.worst_sliver);
+  if (squared < limit * (longest * longest) || !faces_on(sector, t, normal) || turns_on_texture(sector, t)) return part;
   part.allowed = true;
   part.area = twice_area * 0.5f;
   const Vec3 turn = normal * (1.0f / twice_area) - sector.mean_normal;
   part.normal = dot(turn, turn);
-  // The line passes left of an edge, or through it: computed from the other side, the sign is exactly the opposite, so
-  // that it cannot slip between two new faces.
-  const float along = dot(normal, direction);
-  if (along > 0 && dot(direction, cross(a, b)) >= 0 && dot(direction, cross(b, c)) >= 0 &&
-      dot(direction, cross(c, a)) >= 0)
-    part.distance = absolute(dot(normal, a) / along);
+  // The line passes left of each side, or through it. From the other side's triangle a side's sign is exactly the
+  // opposite, so that the line cannot slip between two new faces.
+  if (ab.passed >= 0 && bc.passed >= 0 && ac.passed <= 0) {
+    const float along = dot(normal, ring.direction);
+    if (along > 0) part.distance = absolute(dot(normal, sector.corners[t.a]) / along);
+  }
   return part;
 }
 
-void add(FillSums& sums, const Part& part) {
-  sums.allowed = sums.allowed && part.allowed;
-  sums.area += part.area;
-  sums.normal += part.normal;
-  sums.largest = larger(sums.largest, part.area);
-  sums.distance = smaller(sums.distance, part.distance);
+// All triples of up to six corners, in the order of their numbers (fill_patterns.h).
+void measure_triples(const RingShape& ring, const SectorShape& sector, Part* parts) {
+  Pair pairs[kMostCornersOfAllFills][kMostCornersOfAllFills];  // [second][first]
+  for (std::uint32_t c = 1; c < sector.corner_count; ++c)
+    for (std::uint32_t a = 0; a < c; ++a) pairs[c][a] = measure_pair(ring, sector.corners[a], sector.corners[c]);
+  const std::uint32_t n = sector.corner_count, count = n * (n - 1) * (n - 2) / 6;
+  const FillTriangle* list = triples();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const FillTriangle& t = list[i];
+    parts[i] = measure_triangle(ring, sector, t, pairs[t.b][t.a], pairs[t.c][t.b], pairs[t.c][t.a]);
+  }
 }
 
-void measure_fills(const SectorShape& sector, Vec3 direction, FillSums* fills) {
-  const std::uint32_t n = sector.corner_count, count = fill_count(n);
-  Part triples[kMostTriples];
-  const bool all = n <= kMostCornersOfAllFills;
-  for (std::uint32_t i = 0; all && i < n * (n - 1) * (n - 2) / 6; ++i)
-    triples[i] = measure_triangle(sector, triple(i), direction);
-  for (std::uint32_t f = 0; f < count; ++f) {
-    FillSums sums;
-    sums.allowed = true;
-    for (std::uint32_t t = 0; t + 2 < n && sums.allowed; ++t)
-      add(sums, all ? triples[triple_of(n, f, t)] : measure_triangle(sector, fill_triangle(n, f, t), direction));
-    fills[f] = sums;
-  }
+Part measure_alone(const RingShape& ring, const SectorShape& sector, const FillTriangle& t) {
+  const Vec3 a = sector.corners[t.a], b = sector.corners[t.b], c = sector.corners[t.c];
+  return measure_triangle(ring, sector, t, measure_pair(ring, a, b), measure_pair(ring, b, c),
+                          measure_pair(ring, a, c));
 }
 
 // From the origin to the segment.
@@ -164,68 +111,6 @@ float nearest_corner(const SectorShape& sector) {
   return std::sqrt(squared);
 }
 
-struct RingShape {
-  SectorShape sectors[2];
-  float area = 0;
-  Vec3 direction;  // the unit mean normal of all its faces
-};
-
-// False where the ring or one of its sides has no area or no mean normal.
-bool measure_ring(const Surface& s, const TexCoord* coordinates, const Ring& ring, const TakenEdges* taken,
-                  RingShape& shape) {
-  float angles = 0;
-  Vec3 weighted_normals;
-  const Vec3 origin = s.position(ring.vertex);
-  for (std::uint32_t k = 0; k < ring.sector_count; ++k) {
-    const Sector& from = ring.sectors[k];
-    SectorShape& sector = shape.sectors[k];
-    sector.corner_count = from.corner_count;
-    sector.closing_edge = ring.has_closing_edge();
-    sector.taken = taken != nullptr ? taken->edges[k] : nullptr;
-    for (std::uint32_t i = 0; i < from.corner_count; ++i)
-      sector.corners[i] = s.position(ring.vertices[from.first_corner + i]) - origin;
-    measure_faces(s, ring, from, sector);
-    if (coordinates != nullptr) measure_texture(coordinates, s, ring, from, sector);
-    if (!(sector.area > 0) || !(sector.angles > 0)) return false;
-    sector.mean_normal = sector.weighted_normals * (1.0f / sector.angles);
-    if (!(length(sector.mean_normal) > kLeastMeanNormal)) return false;
-    sector.mean_direction = normalized(sector.mean_normal);
-    shape.area += sector.area;
-    angles += sector.angles;
-    weighted_normals = weighted_normals + sector.weighted_normals;
-  }
-  const Vec3 mean_normal = weighted_normals * (1.0f / angles);
-  shape.direction = normalized(mean_normal);
-  return length(mean_normal) > kLeastMeanNormal;
-}
-
-// `other` is empty where there is one sector.
-Deletion weighed(const VertexDeletionSettings& settings, float mean_area, const RingShape& shape, const FillSums& one,
-                 const FillSums& other, std::uint32_t triangles) {
-  const float unit = std::sqrt(mean_area);
-  const SectorShape& sector = shape.sectors[0];
-  Deletion trial;
-  DeletionTerms& terms = trial.terms;
-  terms.area = (absolute(one.area - sector.area) + absolute(other.area - shape.sectors[1].area)) / shape.area;
-  trial.distance = smaller(one.distance, other.distance);
-  if (trial.distance < kFar) {
-    terms.move = trial.distance / unit;
-  } else if (sector.closing_edge) {
-    trial.distance = distance_to_segment(sector.corners[0], sector.corners[sector.corner_count - 1]);
-    terms.move = trial.distance / unit;
-  } else {
-    trial.distance = nearest_corner(sector);
-    terms.move = settings.protrusion_penalty;
-  }
-  terms.normal = (one.normal + other.normal) / static_cast<float>(triangles);
-  terms.largest = larger(one.largest, other.largest) / mean_area;
-  const float energy = (sector.closing_edge ? settings.boundary_area : settings.area) * terms.area +
-                       settings.move * terms.move + settings.normal * terms.normal +
-                       settings.largest * terms.largest;
-  trial.energy = energy < kMostEnergy ? energy : kMostEnergy;
-  return trial;
-}
-
 }  // namespace
 
 DeletionEnergy::DeletionEnergy(const Surface& surface, const TexCoord* texture_coordinates,
@@ -233,33 +118,83 @@ DeletionEnergy::DeletionEnergy(const Surface& surface, const TexCoord* texture_c
     : surface_(surface),
       texture_coordinates_(texture_coordinates),
       settings_(settings),
-      mean_area_(mean_area) {}
+      per_mean_area_(1.0f / mean_area),
+      per_root_mean_area_(1.0f / std::sqrt(mean_area)) {}
 
-bool DeletionEnergy::least(const Ring& ring, const TakenEdges* taken, Deletion& best) const {
-  RingShape shape;
-  if (!measure_ring(surface_, texture_coordinates_, ring, taken, shape)) return false;
-  // Of two sectors, every pair of fills is tried.
-  FillSums fills[2][kMostFills];
+bool DeletionEnergy::least(const Ring& ring, const TakenEdges* taken, Deletion& best) {
+  if (!measure_ring(surface_, texture_coordinates_, ring, shape_)) return false;
   std::uint32_t counts[2] = {0, 1}, triangles = 0;
-  fills[1][0].allowed = true;
+  fills_[1][0] = {.distance = kFar};
   for (std::uint32_t k = 0; k < ring.sector_count; ++k) {
-    measure_fills(shape.sectors[k], shape.direction, fills[k]);
-    counts[k] = fill_count(shape.sectors[k].corner_count);
-    triangles += shape.sectors[k].corner_count - 2;
+    measure_fills(k, taken != nullptr ? taken->edges[k] : nullptr);
+    counts[k] = fill_count(shape_.sectors[k].corner_count);
+    triangles += shape_.sectors[k].corner_count - 2;
   }
+  // Of two sectors, every pair of fills is tried.
+  const float per_triangle = 1.0f / static_cast<float>(triangles);
   bool any = false;
   for (std::uint32_t i = 0; i < counts[0]; ++i) {
-    for (std::uint32_t j = 0; fills[0][i].allowed && j < counts[1]; ++j) {
-      if (!fills[1][j].allowed) continue;
-      Deletion trial = weighed(settings_, mean_area_, shape, fills[0][i], fills[1][j], triangles);
+    for (std::uint32_t j = 0; fills_[0][i].allowed && j < counts[1]; ++j) {
+      if (!fills_[1][j].allowed) continue;
+      const Deletion trial = weighed(fills_[0][i], fills_[1][j], per_triangle);
       if (any && !(trial.energy < best.energy)) continue;
-      trial.fills[0] = static_cast<std::uint8_t>(i);
-      trial.fills[1] = static_cast<std::uint8_t>(j);
       best = trial;
+      best.fills[0] = static_cast<std::uint8_t>(i);
+      best.fills[1] = static_cast<std::uint8_t>(j);
       any = true;
     }
   }
   return any;
+}
+
+void DeletionEnergy::measure_fills(std::uint32_t sector, const std::uint32_t* taken) {
+  const SectorShape& shape = shape_.sectors[sector];
+  const std::uint32_t n = shape.corner_count, count = fill_count(n);
+  const bool all = n <= kMostCornersOfAllFills;
+  Part parts[kMostTriples];
+  const std::uint8_t* numbers = nullptr;
+  if (all && n >= 3) {
+    measure_triples(shape_, shape, parts);
+    numbers = triples_of_fills(n);
+  }
+  for (std::uint32_t f = 0; f < count; ++f) {
+    FillSums sums{.distance = kFar};
+    for (std::uint32_t t = 0; t + 2 < n && sums.allowed; ++t) {
+      const Part part =
+          all ? parts[numbers[f * kTriplesOfFill + t]] : measure_alone(shape_, shape, fill_triangle(n, f, t));
+      sums.allowed = part.allowed && (taken == nullptr || !is_taken(taken, fill_triangle(n, f, t)));
+      sums.area += part.area;
+      sums.normal += part.normal;
+      sums.largest = larger(sums.largest, part.area);
+      sums.distance = smaller(sums.distance, part.distance);
+    }
+    fills_[sector][f] = sums;
+  }
+}
+
+// `other` is empty where there is one sector.
+Deletion DeletionEnergy::weighed(const FillSums& one, const FillSums& other, float per_triangle) const {
+  const SectorShape& sector = shape_.sectors[0];
+  Deletion trial;
+  DeletionTerms& terms = trial.terms;
+  terms.area = (absolute(one.area - sector.area) + absolute(other.area - shape_.sectors[1].area)) / shape_.area;
+  trial.distance = smaller(one.distance, other.distance);
+  if (trial.distance < kFar) {
+    terms.move = trial.distance * per_root_mean_area_;
+  } else if (sector.closing_edge) {
+    trial.distance = distance_to_segment(sector.corners[0], sector.corners[sector.corner_count - 1]);
+    terms.move = trial.distance * per_root_mean_area_;
+  } else {
+    trial.distance = nearest_corner(sector);
+    terms.move = settings_.protrusion_penalty;
+  }
+  terms.normal = (one.normal + other.normal) * per_triangle;
+  terms.largest = larger(one.largest, other.largest) * per_mean_area_;
+  const float energy = (sector.closing_edge ? settings_.boundary_area : settings_.area) * terms.area +
+                       settings_.move * terms.move + settings_.normal * terms.normal +
+                       settings_.largest * terms.largest;
+  trial.energy = energy < kMostEnergy ? energy : kMostEnergy;
+  return trial;
 }
 
 }  // namespace usuzumi::firmware

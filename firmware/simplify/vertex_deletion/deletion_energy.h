@@ -5,6 +5,7 @@
 
 #include "firmware/simplify/simplify.h"
 #include "firmware/simplify/vertex_deletion/ring.h"
+#include "firmware/simplify/vertex_deletion/ring_shape.h"
 
 namespace usuzumi::firmware {
 
@@ -50,13 +51,23 @@ class DeletionEnergy {
                  float mean_area);
 
   /// The fill of least energy; of equals the first. False where no fill may be taken, or the ring has no area.
-  bool least(const Ring& ring, const TakenEdges* taken, Deletion& best) const;
+  bool least(const Ring& ring, const TakenEdges* taken, Deletion& best);
 
  private:
+  struct FillSums {
+    bool allowed = true;
+    float area = 0, normal = 0, largest = 0, distance = 0;
+  };
+
+  void measure_fills(std::uint32_t sector, const std::uint32_t* taken);
+  Deletion weighed(const FillSums& one, const FillSums& other, float per_triangle) const;
+
   const Surface& surface_;
   const TexCoord* texture_coordinates_;
   VertexDeletionSettings settings_;
-  float mean_area_;
+  float per_mean_area_, per_root_mean_area_;
+  RingShape shape_;                  // of the ring that is looked at; here, as it is large
+  FillSums fills_[2][kMostFills];
 };
 
 }  // namespace usuzumi::firmware

@@ -27,7 +27,7 @@ constexpr Triples all_triples() {
 // the corners between as its third, and the two polygons left are filled independently.
 struct Fills {
   std::uint32_t count = 0;
-  std::uint8_t triples[14][4] = {};
+  std::uint8_t triples[14][kTriplesOfFill] = {};
 };
 constexpr Fills fills_between(std::uint32_t first, std::uint32_t last) {
   Fills fills;
@@ -64,12 +64,12 @@ FillTriangle sorted(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 // of corners a strip read backwards is a mirrored one, so that one hand has them all; with an even number it is of the
 // same hand, and half of the starts with either hand are all.
 std::uint32_t strip_corner(std::uint32_t corners, std::uint32_t fill, std::uint32_t i) {
-  const bool even = corners % 2 == 0;
-  const std::uint32_t start = even ? fill % (corners / 2) : fill;
-  const bool mirrored = even && fill >= corners / 2;
+  const bool mirrored = corners % 2 == 0 && fill >= corners / 2;
+  const std::uint32_t start = mirrored ? fill - corners / 2 : fill;
   const std::uint32_t step = (i + 1) / 2;
   const bool forward = (i % 2 == 1) != mirrored;
-  return (forward ? start + step : start + corners - step) % corners;
+  const std::uint32_t corner = forward ? start + step : start + corners - step;
+  return corner < corners ? corner : corner - corners;
 }
 
 }  // namespace
@@ -78,14 +78,12 @@ std::uint32_t fill_count(std::uint32_t corners) {
   return corners <= kMostCornersOfAllFills ? kCounts[corners] : corners;
 }
 
-FillTriangle triple(std::uint32_t number) { return kTriples.of[number]; }
+const FillTriangle* triples() { return kTriples.of; }
 
-std::uint32_t triple_of(std::uint32_t corners, std::uint32_t fill, std::uint32_t t) {
-  return kFills[corners - 3].triples[fill][t];
-}
+const std::uint8_t* triples_of_fills(std::uint32_t corners) { return kFills[corners - 3].triples[0]; }
 
 FillTriangle fill_triangle(std::uint32_t corners, std::uint32_t fill, std::uint32_t t) {
-  if (corners <= kMostCornersOfAllFills) return triple(triple_of(corners, fill, t));
+  if (corners <= kMostCornersOfAllFills) return kTriples.of[kFills[corners - 3].triples[fill][t]];
   return sorted(strip_corner(corners, fill, t), strip_corner(corners, fill, t + 1), strip_corner(corners, fill, t + 2));
 }
 

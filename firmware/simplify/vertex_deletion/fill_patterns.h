@@ -28,9 +28,10 @@ std::uint32_t fill_count(std::uint32_t corners);
 /// The `t`-th triangle, t < corners - 2, of the polygon's `fill`-th fill.
 FillTriangle fill_triangle(std::uint32_t corners, std::uint32_t fill, std::uint32_t t);
 
-/// For polygons of up to 6 corners: triples (a, b, c) in the order of their numbers, of which a polygon of n corners
-/// has the first n (n - 1) (n - 2) / 6; and the number of a fill's `t`-th triangle in it.
-FillTriangle triple(std::uint32_t number);
-std::uint32_t triple_of(std::uint32_t corners, std::uint32_t fill, std::uint32_t t);
+/// For polygons of up to 6 corners: all triples (a, b, c), of which a polygon of n corners has the first
+/// n (n - 1) (n - 2) / 6; and, fill by fill, the numbers of its n - 2 triangles in that list, kTriplesOfFill apart.
+inline constexpr std::uint32_t kTriplesOfFill = kMostCornersOfAllFills - 2;
+const FillTriangle* triples();
+const std::uint8_t* triples_of_fills(std::uint32_t corners);
 
 }  // namespace usuzumi::firmware

@@ -22,32 +22,40 @@ bool collect(const Surface& s, std::uint32_t v, Spokes& spokes) {
 
 // Puts the faces in order; false where they are not one fan or one half-fan.
 bool arrange(const Spokes& spokes, Ring& ring) {
-  constexpr std::uint32_t kNone = kMostRingFaces;
-  std::uint32_t following[kMostRingFaces];
-  bool led_to[kMostRingFaces] = {};
-  std::uint32_t pairs = 0;
-  for (std::uint32_t i = 0; i < spokes.count; ++i) {
-    following[i] = kNone;
-    for (std::uint32_t j = 0; j < spokes.count; ++j) {
-      if (spokes.before[i] != spokes.after[j]) continue;
-      if (following[i] != kNone || led_to[j]) return false;
-      following[i] = j;
-      led_to[j] = true;
-      ++pairs;
-    }
+  const std::uint32_t n = spokes.count;
+  // No two faces run along an edge the same way.
+  for (std::uint32_t i = 1; i < n; ++i)
+    for (std::uint32_t j = 0; j < i; ++j)
+      if (spokes.after[i] == spokes.after[j] || spokes.before[i] == spokes.before[j]) return false;
+  std::uint32_t order[kMostRingFaces];
+  for (std::uint32_t i = 0; i < n; ++i) order[i] = i;
+  const auto swap = [&](std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t kept = order[i];
+    order[i] = order[j];
+    order[j] = kept;
+  };
+  // On from any face as far as it goes, then back from it, towards the end of the array.
+  std::uint32_t ahead = 1;
+  for (bool found = true; found && ahead < n;) {
+    const std::uint32_t wanted = spokes.before[order[ahead - 1]];
+    std::uint32_t j = ahead;
+    while (j < n && spokes.after[order[j]] != wanted) ++j;
+    found = j < n;
+    if (found) swap(ahead++, j);
   }
-  if (pairs + 1 < spokes.count) return false;
-  ring.open = pairs + 1 == spokes.count;
-  std::uint32_t at = 0;
-  if (ring.open)
-    while (led_to[at]) ++at;
-  ring.face_count = 0;
-  for (const std::uint32_t start = at;;) {
-    ring.corners[ring.face_count++] = spokes.corners[at];
-    at = following[at];
-    if (at == kNone || at == start) break;
+  std::uint32_t behind = n;
+  for (std::uint32_t first = order[0]; behind > ahead; first = order[behind]) {
+    std::uint32_t j = ahead;
+    while (j < behind && spokes.before[order[j]] != spokes.after[first]) ++j;
+    if (j == behind) return false;
+    swap(--behind, j);
   }
-  return ring.face_count == spokes.count;
+  ring.open = spokes.before[order[ahead - 1]] != spokes.after[order[behind % n]];
+  ring.face_count = n;
+  std::uint32_t next = 0;
+  for (std::uint32_t i = behind; i < n; ++i) ring.corners[next++] = spokes.corners[order[i]];
+  for (std::uint32_t i = 0; i < ahead; ++i) ring.corners[next++] = spokes.corners[order[i]];
+  return true;
 }
 
 std::uint32_t wedge_at(const Surface& s, Corner c) { return s.indices[corner_index(c)]; }

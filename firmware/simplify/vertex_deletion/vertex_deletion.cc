@@ -116,10 +116,9 @@ class VertexDeletion {
 
  private:
   void delete_to_target();
-  void cost_all(const DeletionEnergy& energy);
   void enter_stage(std::uint32_t stage);
-  void cost(const DeletionEnergy& energy, std::uint32_t v);
-  void take_turn(const DeletionEnergy& energy, std::uint32_t v);
+  void cost(DeletionEnergy& energy, std::uint32_t v);
+  void take_turn(DeletionEnergy& energy, std::uint32_t v);
   void remember(std::uint32_t v, bool any, const Deletion& best);
   bool log_is_full() const { return options_.log != nullptr && options_.log->full(); }
 
@@ -137,7 +136,7 @@ class VertexDeletion {
 
 void VertexDeletion::delete_to_target() {
   const float mean_area = measure_faces(surface_);
-  const DeletionEnergy energy(surface_, working_.attributes.texture_coordinates, options_.vertex_deletion, mean_area);
+  DeletionEnergy energy(surface_, working_.attributes.texture_coordinates, options_.vertex_deletion, mean_area);
   stage_ = 0;
   for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) cost(energy, v);
   while (faces_ > options_.target_faces && !log_is_full()) {
@@ -159,7 +158,7 @@ void VertexDeletion::enter_stage(std::uint32_t stage) {
     if (states_[v].stage == stage) heap_.set(v, states_[v].energy);
 }
 
-void VertexDeletion::cost(const DeletionEnergy& energy, std::uint32_t v) {
+void VertexDeletion::cost(DeletionEnergy& energy, std::uint32_t v) {
   Deletion best;
   const bool any = gather_ring(surface_, v, ring_) && energy.least(ring_, nullptr, best);
   remember(v, any, best);
@@ -179,7 +178,7 @@ void VertexDeletion::remember(std::uint32_t v, bool any, const Deletion& best) {
 }
 
 /// Deletes `v`, or finds that it has to wait or to stay.
-void VertexDeletion::take_turn(const DeletionEnergy& energy, std::uint32_t v) {
+void VertexDeletion::take_turn(DeletionEnergy& energy, std::uint32_t v) {
   Ring ring;
   if (!gather_ring(surface_, v, ring) || is_back_of_a_face(surface_, ring)) {
     states_[v].stage = kNever;

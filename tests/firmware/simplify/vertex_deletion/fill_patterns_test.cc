@@ -102,7 +102,7 @@ TEST(FillPatterns, TriplesAreNumberedOnce) {
   for (std::uint32_t n = 3; n <= 6; ++n) {
     std::set<std::vector<std::uint32_t>> seen;
     for (std::uint32_t i = 0; i < n * (n - 1) * (n - 2) / 6; ++i) {
-      const FillTriangle t = triple(i);
+      const FillTriangle t = triples()[i];
       EXPECT_TRUE(t.a < t.b && t.b < t.c && t.c < n);
       seen.insert({t.a, t.b, t.c});
     }

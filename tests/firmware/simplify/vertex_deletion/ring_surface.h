@@ -46,7 +46,7 @@ class RingSurface {
                                           float mean_area, const firmware::TakenEdges* taken = nullptr) const {
     const auto around = ring(v);
     firmware::Deletion best;
-    const firmware::DeletionEnergy energy(working_.surface, working_.attributes.texture_coordinates, settings,
+    firmware::DeletionEnergy energy(working_.surface, working_.attributes.texture_coordinates, settings,
                                           mean_area * working_.scale * working_.scale);
     if (!around || !energy.least(*around, taken, best)) return std::nullopt;
     best.distance /= working_.scale;
