@@ -186,8 +186,8 @@ inline TexturePlanes derive_texture(const BigTriangle& t, TileOrigin origin, Til
 }
 
 template <TexelFetch kFetch>
-std::uint32_t raster_fragments(const DrawSetup& d, const BigTriangle& t, TileOrigin origin, const TileBuffers& tile,
-                               TileTriangle& local) {
+[[gnu::noinline]] std::uint32_t raster_fragments(const DrawSetup& d, const BigTriangle& t, TileOrigin origin,
+                                                 const TileBuffers& tile, TileTriangle& local) {
   const TexturePlanes texture = derive_texture(t, origin, local);
   return raster_blocks(FragmentShader<kFetch>(d, local.planes, texture, &local.perspective), local, tile);
 }

@@ -61,8 +61,8 @@ std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigi
 
 /// The same of a triangle of fragments.
 template <TexelFetch kFetch>
-std::uint32_t raster_small_fragments(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin,
-                                     const TileBuffers& tile) {
+[[gnu::noinline]] std::uint32_t raster_small_fragments(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin,
+                                                       const TileBuffers& tile) {
   const auto& texture = *reinterpret_cast<const TexturePlanes*>(&t + 1);
   const FragmentShader<kFetch> shader(d, t.planes, texture, reinterpret_cast<const PerspectivePlanes*>(&t + 2));
   return raster_small_blocks(shader, t, origin, tile);

@@ -34,7 +34,7 @@ struct GeometricMean {
 };
 
 struct Means {
-  GeometricMean ratio, second_thread, ratio_small_size, ratio_large_size;
+  GeometricMean ratio, second_thread, ratio_small_size, ratio_large_size, textured;
 };
 
 double milliseconds(auto&& work) {
@@ -86,7 +86,9 @@ void run_scene(benchmark::State& state, const BenchScene& scene, Means& means) {
     peer->draw();
     const double different = share_different(scene, one.pixels(), peer->pixels().data());
     state.counters["differ_%"] = different * 100;
-    if (different > 0.01) return state.SkipWithError("the two pictures differ in more than 1 % of the pixels");
+    // A level of detail is each engine's own, so a textured picture differs by more along the lines where it changes.
+    if (different > (scene.texture.width == 0 ? 0.01 : 0.05))
+      return state.SkipWithError("the two pictures differ in more than 1 % (with textures 5 %) of the pixels");
   }
   // A device draws frame upon frame: each side draws a few in a row, so that no side's first frame after the other's,
   // with cold caches and threads asleep, stands for all.
@@ -107,10 +109,11 @@ void run_scene(benchmark::State& state, const BenchScene& scene, Means& means) {
   state.counters["ours_ms"] = t1;
   state.counters["two_threads_ms"] = t2;
   state.counters["second_thread"] = t1 / t2;
-  means.second_thread.add(t1 / t2);
+  if (scene.texture.width == 0) means.second_thread.add(t1 / t2);
   if (!peer) return;
   state.counters["llvmpipe_ms"] = peer_ms;
   state.counters["ratio"] = peer_ms / t1;
+  if (scene.texture.width != 0) return means.textured.add(peer_ms / t1);
   means.ratio.add(peer_ms / t1);
   (scene.width == 800 ? means.ratio_small_size : means.ratio_large_size).add(peer_ms / t1);
 }
@@ -135,6 +138,8 @@ int main(int argc, char** argv) {
       "%.2f\n",
       means.second_thread.count, means.ratio.value(), means.ratio_small_size.value(), means.ratio_large_size.value(),
       means.second_thread.value());
+  std::printf("geometric mean over %d textured scenes: llvmpipe / ours, one thread: %.2f\n", means.textured.count,
+              means.textured.value());
   benchmark::Shutdown();
   return 0;
 }

@@ -34,7 +34,7 @@ LlvmpipePeer::LlvmpipePeer(const BenchScene& scene)
   glLoadIdentity();
   glClearColor(0.1f, 0.1f, 0.12f, 1);
   if (scene.clear_only) return;
-  glGenBuffers(3, buffers_);
+  glGenBuffers(4, buffers_);
   glBindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.positions.size() * sizeof(Vec3)), scene.positions.data(),
                GL_STATIC_DRAW);
@@ -48,6 +48,33 @@ LlvmpipePeer::LlvmpipePeer(const BenchScene& scene)
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[2]);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.indices.size() * 4), scene.indices.data(),
                GL_STATIC_DRAW);
+  if (scene.texture.width != 0) set_texture();
+}
+
+void LlvmpipePeer::set_texture() {
+  const BenchTexture& t = scene_.texture;
+  glBindBuffer(GL_ARRAY_BUFFER, buffers_[3]);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene_.coordinates.size() * sizeof(TexCoord)),
+               scene_.coordinates.data(), GL_STATIC_DRAW);
+  glEnableClientState(GL_TEXTURE_COORD_ARRAY);
+  glTexCoordPointer(2, GL_FLOAT, 0, nullptr);
+  glGenTextures(1, &texture_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  const std::uint32_t* texels = t.texels.data();
+  for (std::uint32_t i = 0; i < t.levels; ++i) {
+    const std::uint32_t width = t.width >> i, height = t.height >> i;  // a square: neither reaches 0 first
+    glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA8, static_cast<GLsizei>(width),
+                 static_cast<GLsizei>(height), 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, texels);
+    texels += std::size_t{width} * height;
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  t.bilinear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, t.bilinear ? GL_LINEAR : GL_NEAREST);
+  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+  glEnable(GL_TEXTURE_2D);
+  if (!scene_.blended) return;
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 LlvmpipePeer::~LlvmpipePeer() { OSMesaDestroyContext(static_cast<OSMesaContext>(context_)); }

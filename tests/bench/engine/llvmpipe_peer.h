@@ -32,7 +32,9 @@ class LlvmpipePeer {
   void* context_;
   std::vector<std::uint32_t> pixels_;
   std::string renderer_;
-  std::uint32_t buffers_[3] = {};
+  void set_texture();
+
+  std::uint32_t buffers_[4] = {}, texture_ = 0;
 };
 
 }  // namespace usuzumi::bench

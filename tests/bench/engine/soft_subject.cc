@@ -46,6 +46,13 @@ SoftSubject::SoftSubject(const BenchScene& scene, gfx::ParallelRunner* runner, c
     raster.depth_test = 1;
     list.put(SetTransform{scene.transform});
     list.put(raster);
+    if (scene.texture.width != 0) {
+      streams.texture_coordinates = upload(scene.coordinates);
+      const TextureFilter filter = scene.texture.bilinear ? TextureFilter::kBilinear : TextureFilter::kNearest;
+      list.put(SetTexture{TextureFormat::kArgb8888, upload(scene.texture.texels), scene.texture.width,
+                          scene.texture.height, scene.texture.levels, filter});
+      list.put(SetFragmentState{0, 0, scene.blended ? BlendMode::kAlpha : BlendMode::kNone});
+    }
     list.put(streams);
     list.put(Draw{Topology::kTriangles, IndexFormat::kU32, upload(scene.indices), 0,
                   static_cast<std::uint32_t>(scene.indices.size())});
