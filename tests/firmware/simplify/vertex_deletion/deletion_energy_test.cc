@@ -114,6 +114,42 @@ TEST(DeletionEnergy, FillThatWouldTurnOverIsNotTaken) {
   EXPECT_NEAR(d->terms.largest, 0.9, 1e-6) << "half of (2 - 0.2) times 1";
 }
 
+TEST(DeletionEnergy, SliverIsNotTakenWhereTheRingHadNone) {
+  // The second corner is almost on the line between its neighbours: cutting it off makes a triangle 20 long, 0.02 high.
+  const RingSurface surface(closed_ring({10, 4, 0}, {{0, 0, 0}, {10, -0.02f, 0}, {20, 0, 0}, {10, 10, 0}}));
+  EXPECT_TRUE(surface.least(0, kOnes, 1).has_value());
+  const auto ring = surface.ring(0);
+  firmware::TakenEdges taken;  // the other diagonal
+  for (std::uint32_t a = 0; a < 4; ++a)
+    for (std::uint32_t b = a + 1; b < 4; ++b)
+      if (ring->vertices[a] % 2 == 0 && ring->vertices[b] % 2 == 0) taken.edges[0][a] |= 1u << b;
+  EXPECT_FALSE(surface.least(0, kOnes, 1, &taken).has_value());
+}
+
+TEST(DeletionEnergy, FillThatWouldFoldTheTextureIsNotTaken) {
+  // A flat square, either diagonal as good as the other. On the texture the third corner is drawn in past the line
+  // between its neighbours, so that the diagonal 2-4 would lay its triangle there the wrong way round.
+  Mesh mesh = closed_ring({0, 0, 0}, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+  const auto cut_by_1_3 = [](const RingSurface& surface) {
+    const auto d = surface.least(0, kOnes, 1);
+    const auto ring = surface.ring(0);
+    std::uint32_t at_odd = 0;
+    for (std::uint32_t t = 0; t < 2; ++t) {
+      const firmware::FillTriangle f = firmware::fill_triangle(4, d->fills[0], t);
+      for (const std::uint32_t c : {f.a, f.b, f.c}) at_odd += ring->vertices[c] % 2;
+    }
+    return at_odd == 4;  // both triangles have both odd corners
+  };
+  for (const std::uint32_t drawn_in : {1u, 2u, 3u, 4u}) {
+    mesh.texture_coordinates.clear();
+    for (const Vec3 p : mesh.positions) mesh.texture_coordinates.push_back({p.x, p.y});
+    const Vec3 p = mesh.positions[drawn_in];
+    mesh.texture_coordinates[drawn_in] = {0.2f * -p.x, 0.2f * -p.y};
+    mesh.texture_coordinates[0] = {0.5f * -p.x, 0.5f * -p.y};
+    EXPECT_EQ(cut_by_1_3(RingSurface(mesh)), drawn_in % 2 == 1) << drawn_in;
+  }
+}
+
 TEST(DeletionEnergy, RingWithoutAreaOrWithoutAMeanNormalStays) {
   EXPECT_FALSE(RingSurface(closed_ring({0, 0, 0}, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}})).least(0, kOnes, 1).has_value());
   // Folded flat onto itself: up and down cancel out.
