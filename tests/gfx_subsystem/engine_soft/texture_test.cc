@@ -113,6 +113,21 @@ TEST(Texture, TenThousandRepeatsAwayTheImageIsStillThere) {
   });
 }
 
+TEST(Texture, FarRepeatsAreAsFineAsTheFirst) {
+  // At 10,000 a single's steps are 1/1024: two texels of this image, were they the pixel's.
+  on_every_kernel([](const EngineSetup& setup) {
+    TestImage image{2000, 1, {}};
+    for (std::uint32_t x = 0; x < 2000; ++x) image.texels.push_back(0xFF000000u | x);
+    for (const auto wrap : {TextureWrap::kRepeat, TextureWrap::kMirror}) {
+      Bench b(2000, 1);
+      b.put(upload_argb(b, image, TextureFilter::kNearest, wrap));
+      draw_quad(b, image_part(0, 0, 2000, 1, 10000, 10001));
+      ASSERT_TRUE(b.run(setup).status.ok());
+      for (std::uint32_t x = 0; x < 2000; ++x) ASSERT_EQ(b.pixel(x, 0), 0xFF000000u | x);
+    }
+  });
+}
+
 TEST(Texture, CoordinatesThatAreNoNumbersOrTooLargeDrawTexelsOfTheImage) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
   on_every_kernel([&](const EngineSetup& setup) {
@@ -135,6 +150,12 @@ TEST(Texture, NotANumberIsZeroAndTheRestIsHeldAt65536) {
   b.put(upload_argb(b, numbered(8, 1), TextureFilter::kNearest));
   const float nan = std::numeric_limits<float>::quiet_NaN();
   draw_quad(b, {0, 0, 1, 1, {{nan, 0}, {nan, 0}, {nan, 0}, {nan, 0}}});
+  // One such corner is 0, and the others stay what they are: the image from right to left.
+  Bench back(8, 1);
+  back.put(upload_argb(back, numbered(8, 1), TextureFilter::kNearest));
+  draw_quad(back, {0, 0, 8, 1, {{1, 0}, {nan, 0}, {nan, 0}, {1, 0}}});
+  ASSERT_TRUE(back.run().status.ok());
+  for (std::uint32_t x = 0; x < 8; ++x) EXPECT_EQ(back.pixel(x, 0), 0xFF000000u | (7 - x) << 16) << x;
   const float most = std::numeric_limits<float>::max();
   draw_quad(b, {1, 0, 2, 1, {{most, 0}, {most, 0}, {most, 0}, {most, 0}}});
   ASSERT_TRUE(b.run().status.ok());
@@ -204,19 +225,14 @@ TEST(Texture, LevelsThatAreNotThereAreNotTaken) {
   EXPECT_EQ(b.pixel(4, 4) & 0xFF, 30u);
 }
 
-/// A floor from near to far; w = 1 at y = 0's far edge would be flat, so w rises with y up.
-struct Floor {
-  static constexpr std::uint32_t kWidth = 96, kHeight = 80;
-  static Mat4 transform() { return {{1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0}}; }  // clip = (x, z', 0, z)
-};
-
 TEST(Texture, PerspectiveIsThatOfAReferenceInDoubles) {
   // Corners in clip space by the position (x, y, w): x_clip = x, y_clip = y, w_clip = w.
+  constexpr std::uint32_t kWidth = 96, kHeight = 80;
   const Vec3 corners[4] = {{-3, -0.9f, 1}, {3, -0.9f, 1}, {3, 2.5f, 9}, {-3, 2.5f, 9}};
   const TexCoord st[4] = {{-1, 0.25f}, {2, 0.25f}, {2, 7.25f}, {-1, 7.25f}};
   const TestImage image = numbered(64, 48);
   on_every_kernel([&](const EngineSetup& setup) {
-    Bench b(Floor::kWidth, Floor::kHeight);
+    Bench b(kWidth, kHeight);
     b.put(SetTransform{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0}}});
     b.put(upload_argb(b, image, TextureFilter::kNearest, TextureWrap::kRepeat));
     SetVertexStreams s;
@@ -227,9 +243,9 @@ TEST(Texture, PerspectiveIsThatOfAReferenceInDoubles) {
     ASSERT_TRUE(b.run(setup).status.ok());
     // The quad is a plane: w = 1 + 8 k and y = -0.9 + 3.4 k with k = (t - 0.25) / 7, so k follows from the window's y.
     std::uint32_t compared = 0;
-    for (std::uint32_t py = 0; py < Floor::kHeight; ++py)
-      for (std::uint32_t px = 0; px < Floor::kWidth; ++px) {
-        const double nx = (px + 0.5) / Floor::kWidth * 2 - 1, ny = 1 - (py + 0.5) / Floor::kHeight * 2;
+    for (std::uint32_t py = 0; py < kHeight; ++py)
+      for (std::uint32_t px = 0; px < kWidth; ++px) {
+        const double nx = (px + 0.5) / kWidth * 2 - 1, ny = 1 - (py + 0.5) / kHeight * 2;
         const double k = (ny + 0.9) / (3.4 - 8 * ny), w = 1 + 8 * k, x = nx * w;
         if (k <= 0 || k >= 1 || x <= -3 || x >= 3) continue;
         const double u = ((x + 3) / 6 * 3 - 1) * 64, v = (k * 7 + 0.25) * 48;
