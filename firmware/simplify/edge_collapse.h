@@ -58,8 +58,8 @@ struct CollapsedEdge {
 CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, const WedgeAttributes& attributes,
                             const Neighbourhood& n, AttributeShares shares);
 
-/// Merges `n.a` into `n.b`, which stays as it is. The caller has given the corners at `n.a`, but for those of the edge's
-/// faces, wedges of `n.b`. `pairs` and `first_from_removed` stay empty.
+/// Merges `n.a` into `n.b`, which stays as it is. The caller has given the corners at `n.a`, but for those of the
+/// edge's faces, wedges of `n.b`. `pairs` and `first_from_removed` stay empty.
 CollapsedEdge collapse_half_edge(Surface& surface, const Neighbourhood& n);
 
 }  // namespace usuzumi::firmware

@@ -23,8 +23,8 @@ struct SeamRelation {
   }
 };
 
-/// An edge is on a seam where its two faces name different wedges at one of its ends, or where it has not two faces that
-/// run opposite ways: open borders are seams, beyond which there is nothing.
+/// An edge is on a seam where its two faces name different wedges at one of its ends, or where it has not two faces
+/// that run opposite ways: open borders are seams, beyond which there is nothing.
 ///
 /// IsSeam(v): v has several wedges, or an edge there is on a seam (which ends at v, with one wedge all around).
 /// IsCross(v): v is a seam vertex, and the number of its seam edges is not two.
@@ -42,7 +42,8 @@ class Seams {
   bool is_seam(std::uint32_t v) const { return (words_[v] & kSeam) != 0; }
   bool is_cross(std::uint32_t v) const { return (words_[v] & kCross) != 0; }
   /// IsSeam(vs, vt), but for an edge along which a seam would fold: where vs is no cross and going to vt lays its two
-  /// seam edges onto each other, an island, or a strip between two seams, of one face goes. Such an edge does not count.
+  /// seam edges onto each other, an island, or a strip between two seams, of one face goes. Such an edge does not
+  /// count.
   SeamRelation relation(std::uint32_t from, std::uint32_t to) const;
 
  private:

@@ -10,10 +10,10 @@
 
 namespace usuzumi::firmware {
 
-/// A wedge of vs that a removed face names is followed by the wedge of vt that the face names: they are continuous, and
-/// so is, across the triangles that share the wedge of vs, everything around it. Where removed faces disagree, the
-/// first of vs's list decides. A wedge of vs that no removed face names is followed by the lowest wedge of vt that is of
-/// the same material group.
+/// A wedge of vs that a removed face names is followed by the wedge of vt that the face names: they are continuous,
+/// and so is, across the triangles that share the wedge of vs, everything around it. Where removed faces disagree, the
+/// first of vs's list decides. A wedge of vs that no removed face names is followed by the lowest wedge of vt that is
+/// of the same material group.
 class WedgeMatching {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;

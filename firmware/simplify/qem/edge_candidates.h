@@ -36,8 +36,8 @@ class EdgeCandidates {
   void begin_pass() { read_ = write_ = 0; }
   /// Moves the next keys below `limit` to `batch`, which holds at least one, as many as fit; how many.
   std::size_t take(EdgeKey limit, std::span<EdgeKey> batch);
-  /// Between two batches of a pass: keeps a key for the next pass, where it is below the horizon and there is room. False
-  /// where there is none.
+  /// Between two batches of a pass: keeps a key for the next pass, where it is below the horizon and there is room.
+  /// False where there is none.
   bool keep(EdgeKey key) {
     if (key >= horizon_) return true;
     if (write_ == read_) return false;
