@@ -193,7 +193,7 @@ def check_short_of_ram(context, firmware):
 
 def check_program(firmware):
     """No heap in the program, by its linker map and by its symbols; its sizes: (code, static RAM)."""
-    heap = re.compile(r"\b(_?malloc\w*|_?free\w*|_?calloc\w*|_?realloc\w*|_?sbrk\w*|__cxa_throw|__cxa_allocate\w*)\b")
+    heap = re.compile(r"\b(_?malloc\w*|_?free(?:_r)?|_?calloc\w*|_?realloc\w*|_?sbrk\w*|__cxa_throw|__cxa_allocate\w*)\b")
     linked = firmware.with_suffix(".map").read_text().split("Linker script and memory map")[-1]
     symbols = tool("arm-none-eabi-nm", firmware)
     require("reset_handler" in linked and "reset_handler" in symbols, f"{firmware}: no map, or no symbols")

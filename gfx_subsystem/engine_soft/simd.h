@@ -88,8 +88,12 @@ template <class To, class From>
 /// Words at `offset` bytes from base; every lane's lies in memory.
 [[gnu::always_inline]] inline U32 gather_words(const std::byte* base, I32 offset) {
 #if USUZUMI_KERNEL_LANES == 16
-  // Masked, with all lanes: the plain one is built on a vector that gcc 12 warns is not initialized.
+  // Masked, with all lanes: the plain one is built on a vector that gcc 12 warns is not initialized. Without
+  // optimization it is a macro, whose own conversions gcc 12 warns of.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
   return bits_as<U32>(_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xFFFF, bits_as<__m512i>(offset), base, 1));
+#pragma GCC diagnostic pop
 #elif USUZUMI_KERNEL_LANES == 8
   return bits_as<U32>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base), bits_as<__m256i>(offset), 1));
 #else

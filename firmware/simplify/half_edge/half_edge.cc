@@ -6,7 +6,8 @@
 // Garland & Heckbert's paper, which the source builds on, has for borders (section 6): the claim's cost does not see
 // that a border or a texture's edge is cut short where the surface is flat. A border is a seam, and a vertex there goes
 // along the border or not at all. What is penalised waits until nothing else is allowed anywhere. Edges are ordered as
-// QEM's are (edge_passes.h), not by a heap of vertices; an edge's cost is brought up to date when it comes to the front.
+// QEM's are (edge_passes.h), not by a heap of vertices; an edge's cost is brought up to date when it comes to the
+// front.
 #include "firmware/simplify/half_edge/half_edge.h"
 
 #include <cmath>

@@ -32,8 +32,8 @@ struct BenchScene {
 
 /// Clear, full-screen quad, grids and spheres of 2 k, 20 k and 200 k triangles, 1 M tiny triangles, 8 layers back to
 /// front; flat and Gouraud, at 800x480 and 1920x720. Then textures: a quad texel by pixel, a floor with levels to the
-/// horizon, spheres under vertex colours, 8 blended layers. Every scene clears colour and depth first and draws with the
-/// depth test.
+/// horizon, spheres under vertex colours, 8 blended layers. Every scene clears colour and depth first and draws with
+/// the depth test.
 std::vector<BenchScene> all_bench_scenes();
 
 }  // namespace usuzumi::bench
