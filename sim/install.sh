@@ -3,8 +3,8 @@
 # benchmarks as well, `install.sh boards` for the boards on QEMU. Says what it installs; does nothing where all is there.
 set -euo pipefail
 
-packages=(g++ cmake make libfmt-dev libcli11-dev nlohmann-json3-dev libassimp-dev libtinygltf-dev libpng-dev libosmesa6-dev
-          assimp-testmodels)
+packages=(g++ cmake make libfmt-dev libcli11-dev nlohmann-json3-dev libassimp-dev libtinygltf-dev libpng-dev libjpeg-dev
+          libosmesa6-dev assimp-testmodels)
 if [ "${1:-}" = tests ]; then
   packages+=(clang libclang-rt-14-dev libgtest-dev libgmock-dev libbenchmark-dev libmeshoptimizer-dev xz-utils binutils python3
              pkg-config libgpiod-dev libdrm-dev)

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,9 +25,12 @@
 #include "sim/common/report_errors.h"
 #include "sim/common/standard_streams.h"
 #include "sim/machine/board.h"
+#include "sim/pack/join_parts.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
+#include "sim/pack/method_settings.h"
 #include "sim/pack/names.h"
+#include "sim/pack/prepare_textures.h"
 #include "sim/pack/rom_writer.h"
 #include "sim/pack/tag_values.h"
 
@@ -39,8 +43,11 @@ struct PackOptions {
   std::vector<std::string> inputs;
   std::string output;
   std::string board;
-  std::vector<std::string> sidecars, levels, quotas, areas, telltales;
+  std::vector<std::string> sidecars, levels, quotas, areas, telltales, methods, joins;
   std::optional<std::uint32_t> default_level;
+  TexelChoice texels = TexelChoice::kAuto;
+  bool mips = true;
+  std::uint32_t texture_size = firmware::format::kMaxTextureSize;
   bool bare = false;
   unsigned time_limit_s = 300;
 };
@@ -50,6 +57,7 @@ std::vector<TagRule> option_rules(const PackOptions& options) {
   for (const std::string& a : options.levels) rules.push_back(rule_from_option("--level", a, kLevelKey));
   for (const std::string& a : options.quotas) rules.push_back(rule_from_option("--quota", a, kQuotaKey));
   for (const std::string& a : options.areas) rules.push_back(rule_from_option("--area", a, kAreaKey));
+  for (const std::string& a : options.methods) rules.push_back(rule_from_option("--method", a, kMethodKey));
   for (const std::string& name : options.telltales) {
     TagRule rule{name, {}, "--telltale " + name};
     rule.tags.telltale = true;
@@ -65,25 +73,34 @@ std::vector<TagRule> sidecar_rules(const PackOptions& options) {
   return rules;
 }
 
+/// Whether the tags say more than a level.
+bool beyond_level(Tags tags) {
+  tags.level.reset();
+  return tags.any();
+}
+
 /// The patent's layout has a level and nothing else: what it cannot keep must not be asked for.
 void check_bare_can_keep(const std::vector<TagRule>& rules, ExitCode code) {
   for (const TagRule& rule : rules)
-    if (rule.tags.quota || rule.tags.area_threshold_px || rule.tags.telltale)
+    if (beyond_level(rule.tags))
       throw Error(code,
-                  fmt::format("{}: --bare keeps levels only, no quota, area or telltale; leave --bare or this out",
+                  fmt::format("{}: --bare keeps levels only, no quota, area, telltale, method, settings or regions; "
+                              "leave --bare or this out",
                               rule.origin));
 }
 
 void note_what_bare_loses(Model& model) {
-  const auto tagged = std::count_if(model.meshes.begin(), model.meshes.end(), [](const Mesh& mesh) {
-    return mesh.tags.quota || mesh.tags.area_threshold_px || mesh.tags.telltale;
-  });
+  const auto tagged =
+      std::count_if(model.meshes.begin(), model.meshes.end(), [](const Mesh& mesh) { return beyond_level(mesh.tags); });
+  const auto textured = std::count_if(model.meshes.begin(), model.meshes.end(),
+                                      [](const Mesh& mesh) { return !mesh.texture_coordinates.empty(); });
   model.notes.push_back(
       "bare drawing data keep positions, faces (as one strip a mesh) and levels; names, normals, colours and sidedness "
       "are lost");
   if (tagged > 0)
     model.notes.push_back(
-        fmt::format("face quotas, area thresholds or telltale marks of {} meshes are lost as well", tagged));
+        fmt::format("face quotas, area thresholds, telltale marks or methods of {} meshes are lost as well", tagged));
+  if (textured > 0) model.notes.push_back(fmt::format("the textures of {} meshes are lost as well", textured));
 }
 
 std::vector<fs::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
@@ -127,12 +144,15 @@ int pack(const PackOptions& options) {
     check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
   }
   Model model = load_models(inputs, {std::chrono::seconds(options.time_limit_s)});
-  check_output(options.output, "-o", paths(model.buffer_files));
+  check_output(options.output, "-o", paths(model.part_files));
+  join_parts(model, options.joins);
   apply_tags(model, {from_options, from_sidecars, options.default_level});
   if (options.bare) note_what_bare_loses(model);
+  else prepare_textures(model, options.texture_size);
 
   std::optional<Progress> writing(std::in_place, "writing " + options.output);
-  const std::vector<std::byte> rom = options.bare ? write_bare(model) : write_container(model, options.board);
+  const std::vector<std::byte> rom =
+      options.bare ? write_bare(model) : write_container(model, {options.board, options.texels, options.mips});
   const firmware::DrawingData data = checked(rom);
   write_file_atomically(options.output, rom);
   writing.reset();
@@ -153,7 +173,12 @@ Examples:
   usuzumi pack car.glb -o car.rom --default-level 1 --level 'Wheel*=3' --quota 'Wheel*=25%' --area 'Wheel*=400'
   usuzumi pack car.glb -o car.rom --sidecar levels.json
 where levels.json is
-  {"meshes": {"Wheel*": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": false}}})";
+  {"meshes": {"Wheel*": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": false},
+              "Body": {"thinning_level": 3, "method": "edge-removal",
+                       "method_settings": {"a": 1, "b": 0.1, "placement": "automatic"},
+                       "regions": [{"group": "rim", "locked": true}, {"material": "logo", "value": 5}]}}}
+The README has all settings of methods. A texture that is missing or broken is told of, and its meshes are packed
+without it.)";
 
 }  // namespace
 
@@ -170,9 +195,28 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--level", options->levels, "Thinning level of a mesh, 0 to 5")->type_name("NAME=LEVEL");
   repeated("--quota", options->quotas, "Faces to keep at level 3: a count or a share")->type_name("NAME=N|P%");
   repeated("--area", options->areas, "Area on screen up to which levels 2 to 5 act, in pixels")->type_name("NAME=PX");
+  repeated("--method", options->methods, "How level 3 thins: qem, edge-removal, half-edge or vertex-deletion")
+      ->type_name("NAME=METHOD");
+  repeated("--join", options->joins, "Keep the materials of a mesh together, so that no crack opens between them")
+      ->type_name("NAME");
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");
   command->add_option("--default-level", options->default_level, "Level of the meshes that have none")
       ->transform(whole_number(0, firmware::kLevelCount - 1));
+  command
+      ->add_option("--texture-format", options->texels,
+                   "Texels in ROM: auto loses nothing (xrgb8888, argb8888 where alpha is used); rgb565 takes half, "
+                   "dithered; textures whose alpha is used are argb8888 always")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, TexelChoice>{{"auto", TexelChoice::kAuto},
+                                                                             {"rgb565", TexelChoice::kRgb565},
+                                                                             {"xrgb8888", TexelChoice::kXrgb8888},
+                                                                             {"argb8888", TexelChoice::kArgb8888}}))
+      ->type_name("auto|rgb565|xrgb8888|argb8888");
+  command->add_flag("--mips,!--no-mips", options->mips,
+                    "Smaller levels of each texture too, a third more ROM, against glitter (the default)");
+  command
+      ->add_option("--texture-size", options->texture_size, "Halve larger textures until they are no larger, in texels")
+      ->transform(whole_number(1, firmware::format::kMaxTextureSize))
+      ->capture_default_str();
   command->add_option("--board", options->board, "The only board that will take the ROM; without it any does")
       ->check([](const std::string& name) { return name.empty() ? std::string("must not be empty") : std::string(); });
   command->add_flag("--bare", options->bare, "Write the patent's layout alone: strips of positions, and levels");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/common/error.h"
+#include "sim/pack/assimp_material.h"
 #include "sim/pack/colour.h"
 #include "sim/pack/importers.h"
 #include "sim/pack/normals.h"
@@ -45,7 +46,11 @@ Vec3 to_vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 class AssimpScene {
  public:
   AssimpScene(const fs::path& path, const aiScene& scene, const GltfFile* gltf1)
-      : gltf1_(gltf1), file_(path.string()), stem_(path.stem().string()), scene_(scene) {
+      : gltf1_(gltf1),
+        file_(path.string()),
+        stem_(path.stem().string()),
+        scene_(scene),
+        materials_(file_, scene, model_) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -66,6 +71,7 @@ class AssimpScene {
       const Transform world = visit.parent * local_transform(*visit.node);
       if (!world.finite())
         refuse(fmt::format("node '{}' has a transform that is not finite", visit.node->mName.C_Str()));
+      ++placements_;
       for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) add_mesh(visit.node->mMeshes[i], *visit.node, world);
       for (unsigned i = visit.node->mNumChildren; i-- > 0;) stack.push_back({visit.node->mChildren[i], world});
     }
@@ -96,7 +102,9 @@ class AssimpScene {
     read_faces(source, mesh);
     if (mesh.indices.empty()) return;
     read_vertices(source, mesh);
-    read_material(source, mesh);
+    // Most of these formats cannot say it. A closed surface shows its outside only; an open one may show both sides.
+    if (!materials_.read(source, mesh)) mesh.two_sided = has_open_border(mesh);
+    mesh.placement = placements_;
     apply(world, mesh);
     model_.meshes.push_back(std::move(mesh));
     if (model_.meshes.size() > firmware::format::kMaxMeshes)
@@ -133,27 +141,10 @@ class AssimpScene {
     }
   }
 
-  void read_material(const aiMesh& source, Mesh& mesh) {
-    bool sides_known = false;
-    if (source.mMaterialIndex < scene_.mNumMaterials) {
-      const aiMaterial& material = *scene_.mMaterials[source.mMaterialIndex];
-      aiColor4D diffuse(1, 1, 1, 1);
-      material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
-      mesh.base_colour = from_display({double{diffuse.r}, double{diffuse.g}, double{diffuse.b}, double{diffuse.a}});
-      int two_sided = 0;
-      sides_known = material.Get(AI_MATKEY_TWOSIDED, two_sided) == aiReturn_SUCCESS;
-      mesh.two_sided = two_sided != 0;
-      if (material.GetTextureCount(aiTextureType_DIFFUSE) > 0) ++textured_;
-    }
-    // Most of these formats cannot say it. A closed surface shows its outside only; an open one may show both sides.
-    if (!sides_known) mesh.two_sided = has_open_border(mesh);
-  }
-
   void note_what_is_left_out() {
     auto note = [&](const std::string& text) { model_.notes.push_back(file_ + ": " + text); };
     if (points_and_lines_ > 0)
       note(fmt::format("{} points and lines are left out: drawing data hold faces", points_and_lines_));
-    if (textured_ > 0) note(fmt::format("textures of {} meshes are left out; their base colour stays", textured_));
     if (scene_.mNumAnimations > 0) note(fmt::format("{} animations are left out", scene_.mNumAnimations));
   }
 
@@ -162,7 +153,9 @@ class AssimpScene {
   const aiScene& scene_;
   bool facet_normals_only_ = false;
   Model model_;
-  std::size_t points_and_lines_ = 0, textured_ = 0;
+  AssimpMaterials materials_;
+  std::uint32_t placements_ = 0;
+  std::size_t points_and_lines_ = 0;
 };
 
 }  // namespace

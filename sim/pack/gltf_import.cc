@@ -16,10 +16,12 @@
 #include "sim/common/files.h"
 #include "sim/pack/colour.h"
 #include "sim/pack/gltf_accessor.h"
+#include "sim/pack/gltf_material.h"
 #include "sim/pack/gltf_uri.h"
 #include "sim/pack/importers.h"
 #include "sim/pack/tag_values.h"
 #include "sim/pack/text.h"
+#include "sim/pack/textured.h"
 #include "sim/pack/tinygltf.h"
 #include "sim/pack/transform.h"
 #include "sim/pack/triangles.h"
@@ -29,7 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What tinygltf may read from disk: the buffers, and of those only the bytes that they declare. Images are not needed.
+/// What tinygltf may read from disk: the buffers, and of those only the bytes that they declare. Images in files of
+/// their own are read where a material uses them (gltf_material.h).
 struct BufferFolder {
   fs::path folder;
   const std::map<std::string, std::uint64_t>* files;
@@ -62,7 +65,11 @@ bool read_buffer(std::vector<unsigned char>* out, std::string* error, const std:
 
 std::string unexpanded(const std::string& name, void*) { return name; }
 
-bool leave_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+/// Keeps the bytes of a data URI as they are. Those of a buffer view stay where they lie; its range is not checked yet.
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
+                void*) {
+  image->as_is = true;
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
@@ -71,7 +78,7 @@ tinygltf::Model parse(const fs::path& path, const GltfFile& file) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   BufferFolder buffers{folder, &file.buffer_files};
   loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
-  loader.SetImageLoader(leave_image, nullptr);
+  loader.SetImageLoader(keep_image, nullptr);
   loader.SetFsCallbacks({buffer_exists, unexpanded, read_buffer, nullptr, &buffers});
   tinygltf::Model model;
   std::string error, warning;
@@ -99,7 +106,11 @@ std::vector<std::pair<std::string, TagValue>> properties(const std::string& extr
 class GltfImporter {
  public:
   GltfImporter(const fs::path& path, const tinygltf::Model& gltf)
-      : file_(path.string()), stem_(path.stem().string()), gltf_(gltf), accessors_(gltf_, file_) {}
+      : file_(path.string()),
+        stem_(path.stem().string()),
+        gltf_(gltf),
+        accessors_(gltf_, file_),
+        materials_(path, file_, gltf_, model_) {}
 
   Model import() {
     read_extras();
@@ -214,12 +225,14 @@ class GltfImporter {
 
   void add_mesh(std::size_t m, const std::string& node_name, const Tags& tags, const Transform& world) {
     placed_[m] = true;
+    ++placements_;
     const tinygltf::Mesh& source = gltf_.meshes[m];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
       Mesh mesh;
       mesh.mesh_name = !source.name.empty() ? source.name : (!node_name.empty() ? node_name : stem_);
       mesh.node_name = node_name;
       mesh.tags = tags;
+      mesh.placement = placements_;
       if (!read_primitive(source.primitives[p], fmt::format("{} primitive {}", described("mesh", m, source.name), p),
                           mesh))
         continue;
@@ -250,7 +263,13 @@ class GltfImporter {
     for (std::size_t i = 0; i < positions.count(); ++i)
       mesh.positions.push_back({positions.at(i)[0], positions.at(i)[1], positions.at(i)[2]});
     read_normals(primitive, what, mesh);
-    read_colours(primitive, what, mesh);
+    const GltfMaterial material = materials_.read(primitive.material, what);
+    mesh.two_sided = material.two_sided;
+    mesh.material_name = material.name;
+    if (material.needed()) mesh.material = material_number(model_, material.material);
+    read_colours(primitive, what, material.factor, mesh);
+    if (material.material.texture) read_texture_coordinates(primitive, what, material, mesh);
+    read_vertex_groups(primitive, what, mesh);
     if (!primitive.targets.empty()) ++morphed_;
 
     std::vector<std::uint32_t> order;
@@ -272,7 +291,7 @@ class GltfImporter {
     return true;
   }
 
-  Elements attribute(const tinygltf::Primitive& primitive, const char* name, std::size_t least, std::size_t most,
+  Elements attribute(const tinygltf::Primitive& primitive, const std::string& name, std::size_t least, std::size_t most,
                      const std::string& what, const Mesh& mesh) const {
     const auto at = primitive.attributes.find(name);
     if (at == primitive.attributes.end()) return {};
@@ -289,8 +308,8 @@ class GltfImporter {
   }
 
   /// Vertex colours are multiplied by the material's factor, both in linear light (section 3.9.2).
-  void read_colours(const tinygltf::Primitive& primitive, const std::string& what, Mesh& mesh) {
-    const ColourF factor = read_material(primitive.material, what, mesh);
+  void read_colours(const tinygltf::Primitive& primitive, const std::string& what, const ColourF& factor,
+                    Mesh& mesh) const {
     mesh.base_colour = from_linear(factor);
     const Elements colours = attribute(primitive, "COLOR_0", 3, 4, what, mesh);
     for (std::size_t i = 0; i < colours.count(); ++i) {
@@ -300,28 +319,26 @@ class GltfImporter {
     }
   }
 
-  ColourF read_material(int index, const std::string& what, Mesh& mesh) {
-    if (index < 0) return {};
-    if (static_cast<std::size_t>(index) >= gltf_.materials.size())
-      refuse(fmt::format("{} uses material {}, which does not exist", what, index));
-    const tinygltf::Material& material = gltf_.materials[static_cast<std::size_t>(index)];
-    mesh.two_sided = material.doubleSided;
-    if (material.pbrMetallicRoughness.baseColorTexture.index >= 0) ++textured_;
-    const std::vector<double>& f = material.pbrMetallicRoughness.baseColorFactor;
-    ColourF factor;
-    if (f.size() >= 3) factor = {f[0], f[1], f[2], f.size() > 3 ? f[3] : 1.0};
-    // The older way to say it, by extension KHR_materials_pbrSpecularGlossiness.
-    const auto older = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
-    if (older != material.extensions.end() && older->second.Has("diffuseFactor")) {
-      const tinygltf::Value& d = older->second.Get("diffuseFactor");
-      auto part = [&](int i) {
-        return d.IsArray() && static_cast<std::size_t>(i) < d.ArrayLen() && d.Get(i).IsNumber()
-                   ? d.Get(i).GetNumberAsDouble()
-                   : 1.0;
-      };
-      factor = {part(0), part(1), part(2), part(3)};
+  void read_texture_coordinates(const tinygltf::Primitive& primitive, const std::string& what,
+                                const GltfMaterial& material, Mesh& mesh) const {
+    const Elements all = attribute(primitive, material.coordinates, 2, 2, what, mesh);
+    for (std::size_t i = 0; i < all.count(); ++i)
+      mesh.texture_coordinates.push_back(material.transform(double{all.at(i)[0]}, double{all.at(i)[1]}));
+  }
+
+  /// Attributes of the application (section 3.7.2.1: _NAME). Blender writes such an attribute of a mesh in capitals.
+  void read_vertex_groups(const tinygltf::Primitive& primitive, const std::string& what, Mesh& mesh) const {
+    constexpr float kIn = 0.5f;
+    for (const auto& [name, accessor] : primitive.attributes) {
+      if (!name.starts_with('_') || name.size() < 2 || accessor < 0 ||
+          static_cast<std::size_t>(accessor) >= gltf_.accessors.size() ||
+          gltf_.accessors[static_cast<std::size_t>(accessor)].type != TINYGLTF_TYPE_SCALAR)
+        continue;
+      const Elements weights = attribute(primitive, name, 1, 1, what, mesh);
+      VertexGroup group{name.substr(1), {}};
+      for (float w : weights.values) group.members.push_back(w > kIn ? 1 : 0);
+      mesh.vertex_groups.push_back(std::move(group));
     }
-    return factor;
   }
 
   void note_what_is_left_out() {
@@ -329,7 +346,6 @@ class GltfImporter {
     for (const std::string& what : pointy_)
       note(what + " has points or lines, which are left out: drawing data hold faces");
     for (const std::string& what : positionless_) note(what + " has no positions and is left out");
-    if (textured_ > 0) note(fmt::format("textures of {} meshes are left out; their base colour stays", textured_));
     if (skinned_ > 0) note(fmt::format("{} skinned meshes stand as they were modelled", skinned_));
     if (morphed_ > 0) note(fmt::format("morph targets of {} meshes are left out", morphed_));
     if (!gltf_.animations.empty()) note(fmt::format("{} animations are left out", gltf_.animations.size()));
@@ -342,10 +358,12 @@ class GltfImporter {
   const tinygltf::Model& gltf_;
   AccessorReader accessors_;
   Model model_;
+  GltfMaterials materials_;
   std::vector<Tags> mesh_tags_, node_tags_;
   std::vector<bool> placed_;
   std::set<std::string> pointy_, positionless_;
-  std::size_t textured_ = 0, skinned_ = 0, morphed_ = 0;
+  std::uint32_t placements_ = 0;
+  std::size_t skinned_ = 0, morphed_ = 0;
 };
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 #include "sim/common/error.h"
 #include "sim/common/strict_json.h"
+#include "sim/pack/edge_regions.h"
+#include "sim/pack/method_settings.h"
 #include "sim/pack/names.h"
 #include "sim/pack/tag_values.h"
 
@@ -55,6 +57,18 @@ void note_unused_properties(Model& model) {
     };
     if (mesh.tags.quota && level != kLevelCollapse) note(kQuotaKey, "3");
     if (mesh.tags.area_threshold_px && level < kLevelDelete) note(kAreaKey, "2 to 5");
+    if (mesh.tags.method && level != kLevelCollapse) note(kMethodKey, "3");
+  }
+}
+
+/// Settings mean something to their method alone; who gives both must have them agree.
+void check_settings(const Model& model) {
+  for (const Mesh& mesh : model.meshes) {
+    if (!mesh.tags.settings) continue;
+    const std::string wrong = misplaced_setting(mesh.tags.method.value_or(firmware::Method::kQem), *mesh.tags.settings);
+    if (!wrong.empty())
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("mesh '{}': {}; give it that method or leave the setting out", mesh.name, wrong));
   }
 }
 
@@ -116,6 +130,8 @@ void apply_tags(Model& model, const TagSources& sources) {
     model.notes.insert(
         model.notes.begin(),
         fmt::format("--default-level {} has no effect: every mesh has a level already", *fallback.level));
+  check_settings(model);
+  apply_regions(model);
   note_unused_properties(model);
   if (!any_level)
     model.notes.push_back(

@@ -24,7 +24,8 @@ struct TagRule {
 /// Throws Error kUsage.
 TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key);
 
-/// {"meshes": {"pattern": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": true}}};
+/// {"meshes": {"pattern": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": true,
+/// "method": "edge-removal", "method_settings": {"a": 2}, "regions": [{"group": "rim", "locked": true}]}}};
 /// anything else in the file is an error. Throws Error kBadInput.
 std::vector<TagRule> read_sidecar(const std::filesystem::path& path);
 
@@ -34,8 +35,9 @@ struct TagSources {
   std::optional<std::uint32_t> default_level;  // of meshes whose level nobody gives
 };
 
-/// Sets every mesh's tags. A rule that matches no mesh is an error: kUsage for options, kBadInput for sidecars. Adds
-/// notes about properties that the mesh's level does not use, and where no mesh has a level.
+/// Sets every mesh's tags, and its edge values from regions. A rule that matches no mesh is an error: kUsage for
+/// options, kBadInput for sidecars. Adds notes about properties that the mesh's level or method does not use, and where
+/// no mesh has a level. Settings of another method than the mesh's and regions of nothing are kBadInput.
 void apply_tags(Model& model, const TagSources& sources);
 
 }  // namespace usuzumi::sim

@@ -18,6 +18,7 @@
 #include "sim/pack/names.h"
 #include "sim/pack/normals.h"
 #include "sim/pack/off_counts.h"
+#include "sim/pack/textured.h"
 #include "sim/pack/weld.h"
 
 namespace usuzumi::sim {
@@ -51,8 +52,7 @@ Model import_by_extension(const fs::path& path) {
   const GltfFile file = open_gltf(path);
   Model model = file.version_major == 2 ? import_gltf(path, file) : import_assimp(path, &file);
   if (file.version_major == 1) label_gltf1(file, model);
-  for (const auto& [name, bytes] : file.buffer_files)
-    model.buffer_files.push_back((path.parent_path() / name).string());
+  for (const auto& [name, bytes] : file.buffer_files) model.part_files.push_back((path.parent_path() / name).string());
   return model;
 }
 
@@ -86,18 +86,39 @@ void check_mesh(const std::string& file, const Mesh& mesh) {
   for (std::uint32_t i : mesh.indices)
     if (i >= vertices) refuse(fmt::format("a face refers to vertex {} of {}", i, vertices));
   if (mesh.indices.size() % 3 != 0 || (!mesh.normals.empty() && mesh.normals.size() != vertices) ||
-      (!mesh.colours.empty() && mesh.colours.size() != vertices))
+      (!mesh.colours.empty() && mesh.colours.size() != vertices) ||
+      (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != vertices))
     refuse("its arrays do not belong together");
+  for (const VertexGroup& group : mesh.vertex_groups)
+    if (group.members.size() != vertices) refuse("a vertex group does not belong to it");
+}
+
+void check_materials(const std::string& file, const Model& model) {
+  bool sound = true;
+  for (const Picture& picture : model.textures)
+    sound = sound && picture.width >= 1 && picture.height >= 1 &&
+            picture.texels.size() == std::uint64_t{picture.width} * picture.height;
+  for (const Material& material : model.materials)
+    sound = sound && (!material.texture || *material.texture < model.textures.size());
+  for (const Mesh& mesh : model.meshes) sound = sound && (!mesh.material || *mesh.material < model.materials.size());
+  if (!sound) throw Error(ExitCode::kBadInput, file + ": its materials do not belong together; export it again");
 }
 
 /// From whatever the importer made to what the device draws.
 void finish(const std::string& file, Model& model) {
+  check_materials(file, model);
+  for (Picture& picture : model.textures) picture.name = clean_name(picture.name);
   std::vector<Mesh> kept;
   std::uint64_t empty_faces = 0, meshes_with_empty_faces = 0;
   for (Mesh& mesh : model.meshes) {
     mesh.mesh_name = clean_name(mesh.mesh_name);
     mesh.node_name = clean_name(mesh.node_name);
+    mesh.material_name = clean_name(mesh.material_name);
+    for (VertexGroup& group : mesh.vertex_groups) group.name = clean_name(group.name);
     check_mesh(file, mesh);
+  }
+  settle_textures(file, model);
+  for (Mesh& mesh : model.meshes) {
     drop_rounding_noise(mesh);
     const std::uint32_t empty = remove_faces_without_area(mesh);
     empty_faces += empty;
@@ -148,12 +169,7 @@ Model load_model(const fs::path& path, const LoadOptions& options) {
 
 Model load_models(std::span<const fs::path> paths, const LoadOptions& options) {
   Model all;
-  for (const fs::path& path : paths) {
-    Model model = load_model(path, options);
-    std::move(model.meshes.begin(), model.meshes.end(), std::back_inserter(all.meshes));
-    std::move(model.buffer_files.begin(), model.buffer_files.end(), std::back_inserter(all.buffer_files));
-    std::move(model.notes.begin(), model.notes.end(), std::back_inserter(all.notes));
-  }
+  for (const fs::path& path : paths) append_model(all, load_model(path, options));
   make_names_unique(all);
   return all;
 }

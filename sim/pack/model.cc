@@ -8,6 +8,9 @@ Tags merge_tags(const Tags& over, const Tags& under) {
   if (!merged.quota) merged.quota = under.quota;
   if (!merged.area_threshold_px) merged.area_threshold_px = under.area_threshold_px;
   if (!merged.telltale) merged.telltale = under.telltale;
+  if (!merged.method) merged.method = under.method;
+  if (!merged.settings) merged.settings = under.settings;
+  if (!merged.regions) merged.regions = under.regions;
   return merged;
 }
 

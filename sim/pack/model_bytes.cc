@@ -76,6 +76,40 @@ void optional_value(Stream& s, std::optional<Value>& v) {
 }
 
 template <class Stream>
+void optional_settings(Stream& s, std::optional<MethodSettings>& settings) {
+  std::uint8_t there = settings.has_value();
+  s.value(there);
+  if (there == 0) return;
+  if (!settings) settings.emplace();
+  s.array(settings->preset);
+  std::vector<std::pair<std::string, double>> values(settings->values.begin(), settings->values.end());
+  std::size_t n = values.size();
+  s.count(n);
+  values.resize(n);
+  for (auto& [name, value] : values) {
+    s.array(name);
+    s.value(value);
+  }
+  settings->values = {values.begin(), values.end()};
+}
+
+template <class Stream>
+void optional_regions(Stream& s, std::optional<std::vector<EdgeRegion>>& regions) {
+  std::uint8_t there = regions.has_value();
+  s.value(there);
+  if (there == 0) return;
+  if (!regions) regions.emplace();
+  std::size_t n = regions->size();
+  s.count(n);
+  regions->resize(n);
+  for (EdgeRegion& region : *regions) {
+    s.array(region.group);
+    s.array(region.material);
+    s.value(region.value);
+  }
+}
+
+template <class Stream>
 void mesh_fields(Stream& s, Mesh& mesh) {
   s.array(mesh.name);
   s.array(mesh.mesh_name);
@@ -83,15 +117,47 @@ void mesh_fields(Stream& s, Mesh& mesh) {
   s.array(mesh.positions);
   s.array(mesh.normals);
   s.array(mesh.colours);
+  s.array(mesh.texture_coordinates);
   s.array(mesh.indices);
   s.value(mesh.base_colour);
   std::uint8_t two_sided = mesh.two_sided;
   s.value(two_sided);
   mesh.two_sided = two_sided != 0;
+  optional_value(s, mesh.material);
+  s.array(mesh.material_name);
+  std::size_t groups = mesh.vertex_groups.size();
+  s.count(groups);
+  mesh.vertex_groups.resize(groups);
+  for (VertexGroup& group : mesh.vertex_groups) {
+    s.array(group.name);
+    s.array(group.members);
+  }
   optional_value(s, mesh.tags.level);
   optional_value(s, mesh.tags.quota);
   optional_value(s, mesh.tags.area_threshold_px);
   optional_value(s, mesh.tags.telltale);
+  optional_value(s, mesh.tags.method);
+  optional_settings(s, mesh.tags.settings);
+  optional_regions(s, mesh.tags.regions);
+  s.value(mesh.placement);
+}
+
+template <class Stream>
+void picture_fields(Stream& s, Picture& picture) {
+  s.array(picture.name);
+  s.value(picture.width);
+  s.value(picture.height);
+  s.array(picture.texels);
+}
+
+template <class Stream>
+void material_fields(Stream& s, Material& material) {
+  optional_value(s, material.texture);
+  s.value(material.filter);
+  s.value(material.wrap_s);
+  s.value(material.wrap_t);
+  s.value(material.alpha_mode);
+  s.value(material.alpha_reference);
 }
 
 template <class Stream>
@@ -108,7 +174,15 @@ void model_fields(Stream& s, Model& model) {
   s.count(meshes);
   model.meshes.resize(meshes);
   for (Mesh& mesh : model.meshes) mesh_fields(s, mesh);
-  lines(s, model.buffer_files);
+  std::size_t textures = model.textures.size();
+  s.count(textures);
+  model.textures.resize(textures);
+  for (Picture& picture : model.textures) picture_fields(s, picture);
+  std::size_t materials = model.materials.size();
+  s.count(materials);
+  model.materials.resize(materials);
+  for (Material& material : model.materials) material_fields(s, material);
+  lines(s, model.part_files);
   lines(s, model.notes);
 }
 

@@ -72,17 +72,24 @@ Vec3 corner_normal(std::uint32_t f, std::span<const std::uint32_t> around, std::
   return unit(sum);
 }
 
+/// `values` by corner where they were by vertex; an empty list stays empty.
+template <class T>
+void by_corner(std::vector<T>& values, std::span<const std::uint32_t> indices) {
+  if (values.empty()) return;
+  std::vector<T> parted;
+  parted.reserve(indices.size());
+  for (std::uint32_t v : indices) parted.push_back(values[v]);
+  values = std::move(parted);
+}
+
 /// A vertex for each corner of each face, so that neighbours can differ; welding joins them again.
 void part_corners(Mesh& mesh) {
-  Mesh parted;
-  for (std::uint32_t v : mesh.indices) {
-    parted.positions.push_back(mesh.positions[v]);
-    if (!mesh.colours.empty()) parted.colours.push_back(mesh.colours[v]);
-    parted.normals.push_back(mesh.normals.empty() ? Vec3{} : mesh.normals[v]);
-  }
-  mesh.positions = std::move(parted.positions);
-  mesh.colours = std::move(parted.colours);
-  mesh.normals = std::move(parted.normals);
+  if (mesh.normals.empty()) mesh.normals.resize(mesh.positions.size(), Vec3{});
+  by_corner(mesh.positions, mesh.indices);
+  by_corner(mesh.colours, mesh.indices);
+  by_corner(mesh.texture_coordinates, mesh.indices);
+  by_corner(mesh.normals, mesh.indices);
+  for (VertexGroup& group : mesh.vertex_groups) by_corner(group.members, mesh.indices);
   for (std::uint32_t c = 0; c < mesh.indices.size(); ++c) mesh.indices[c] = c;
 }
 

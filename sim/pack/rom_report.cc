@@ -12,6 +12,7 @@
 
 #include "firmware/drawing_data/drawing_data.h"
 #include "hal/crc32.h"
+#include "sim/pack/appearance_report.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -46,11 +47,6 @@ std::string quota_label(const MeshView& mesh) {
   return "-";
 }
 
-std::string colour_label(Rgba8 c) {
-  return c.a() == 255 ? fmt::format("#{:02x}{:02x}{:02x}", c.r(), c.g(), c.b())
-                      : fmt::format("#{:02x}{:02x}{:02x}{:02x}", c.r(), c.g(), c.b(), c.a());
-}
-
 json mesh_json(const MeshView& mesh) {
   const Box box = bounding_box(mesh.positions);
   json j;
@@ -70,22 +66,24 @@ json mesh_json(const MeshView& mesh) {
   j["normals"] = !mesh.normals.empty();
   j["vertex_colours"] = !mesh.colours.empty();
   j["base_colour"] = colour_label(mesh.base_colour);
+  add_appearance(j, mesh);
   j["bounding_box"] = {{"min", {box.low.x, box.low.y, box.low.z}}, {"max", {box.high.x, box.high.y, box.high.z}}};
   return j;
 }
 
 std::string mesh_line(const MeshView& mesh, std::size_t name_width) {
   const Box box = bounding_box(mesh.positions);
-  const std::string flags = fmt::format("{}{}{}{}", mesh.normals.empty() ? '-' : 'n', mesh.colours.empty() ? '-' : 'c',
+  const std::string flags = fmt::format("{}{}{}{}{}", mesh.normals.empty() ? '-' : 'n',
+                                        mesh.colours.empty() ? '-' : 'c', mesh.texture_coordinates.empty() ? '-' : 'x',
                                         mesh.two_sided() ? '2' : '-', mesh.telltale() ? 't' : '-');
   return fmt::format(
-      "{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:.4g},{:.4g},{:.4g} to "
+      "{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:<8}  {:.4g},{:.4g},{:.4g} to "
       "{:.4g},{:.4g},{:.4g}\n",
       mesh.number + 1, mesh.name.empty() ? "-" : mesh.name, name_width, level_label(static_cast<unsigned>(mesh.level)),
       kTopologyNames[static_cast<std::size_t>(mesh.topology)], mesh.positions.size(), mesh.proper_face_count(),
       quota_label(mesh), mesh.area_threshold_px < 0 ? "-" : fmt::format("{:g}", mesh.area_threshold_px), flags,
-      mesh.colours.empty() ? colour_label(mesh.base_colour) : "by vertex", box.low.x, box.low.y, box.low.z, box.high.x,
-      box.high.y, box.high.z);
+      mesh.colours.empty() ? colour_label(mesh.base_colour) : "by vertex", material_label(mesh), box.low.x, box.low.y,
+      box.low.z, box.high.x, box.high.y, box.high.z);
 }
 
 /// What a ROM without a stored checksum can be told by, or the stored one, which open() has found right.
@@ -127,6 +125,8 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
   j["mesh_max"] = data.mesh_max();
   j["vertices"] = totals.vertices;
   j["faces"] = totals.faces;
+  j["textures"] = textures_json(data);
+  j["materials"] = materials_json(data);
   j["meshes"] = json::array();
   data.for_each_mesh([&](const MeshView& mesh) { j["meshes"].push_back(mesh_json(mesh)); });
   return j.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
@@ -138,11 +138,12 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
                   data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
                   data.board().empty() ? "" : fmt::format(" for board {} alone", data.board()), data.bytes().size(),
                   crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
-  out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {}\n", "mesh", "name",
-                     totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags", "colour",
-                     "bounding box");
+  out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:<8}  {}\n", "mesh",
+                     "name", totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags",
+                     "colour", "material", "bounding box");
   data.for_each_mesh([&](const MeshView& mesh) { out += mesh_line(mesh, totals.name_width); });
-  out += "flags: n normals, c vertex colours, 2 two-sided, t telltale\n";
+  out += "flags: n normals, c vertex colours, x texture coordinates, 2 two-sided, t telltale\n";
+  out += appearance_text(data);
   return out;
 }
 

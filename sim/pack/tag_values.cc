@@ -1,6 +1,7 @@
 #include "sim/pack/tag_values.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,12 +10,15 @@
 #include <limits>
 
 #include "sim/common/error.h"
+#include "sim/pack/method_settings.h"
 #include "sim/pack/names.h"
 
 namespace usuzumi::sim {
 namespace {
 
-constexpr std::size_t kNearlyOurs = 3;  // letters to change in a property's name; arbitrary
+/// Letters to change in a property's name, of which we have `ours`, for it to be nearly that one. Arbitrary; short
+/// names resemble many.
+std::size_t nearly(std::string_view ours) { return std::min<std::size_t>(3, ours.size() / 3); }
 
 /// All of `text` as a plain decimal number: no sign but -, no hexadecimal, no infinity.
 std::optional<double> parse_number(std::string_view text) {
@@ -55,6 +59,13 @@ std::optional<bool> parse_truth(const TagValue& v) {
   return std::nullopt;
 }
 
+/// JSON of an object or a list. Custom properties of some tools hold text alone, which may then be JSON.
+std::string structure_of(const TagValue& v) {
+  if (v.structure) return *v.structure;
+  const bool looks_so = v.text && !v.text->empty() && (v.text->front() == '{' || v.text->front() == '[');
+  return looks_so ? *v.text : "null";
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> parse_share(std::string_view text) {
@@ -86,6 +97,13 @@ std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
   } else if (key == kTelltaleKey) {
     tags.telltale = parse_truth(value);
     if (!tags.telltale) return fmt::format("must be true or false, not {}", spelled(value));
+  } else if (key == kMethodKey) {
+    tags.method = value.text ? method_of(*value.text) : std::nullopt;
+    if (!tags.method) return fmt::format("must be one of {}, not {}", fmt::join(kMethodNames, ", "), spelled(value));
+  } else if (key == kSettingsKey) {
+    return parse_settings(structure_of(value), tags.settings.emplace());
+  } else if (key == kRegionsKey) {
+    return parse_regions(structure_of(value), tags.regions.emplace());
   } else {
     return "is not a thinning property";
   }
@@ -102,7 +120,7 @@ Tags tags_from_extras(const std::vector<std::pair<std::string, TagValue>>& extra
       continue;
     }
     for (std::string_view ours : kTagKeys)
-      if (edit_distance(key, ours) <= kNearlyOurs)
+      if (edit_distance(key, ours) <= nearly(ours))
         notes.push_back(fmt::format("{}: {}: property '{}' is not used; did you mean {}?", file, whose, key, ours));
   }
   return tags;

@@ -13,14 +13,17 @@
 namespace usuzumi::sim {
 
 inline constexpr std::string_view kLevelKey = "thinning_level", kQuotaKey = "face_quota",
-                                  kAreaKey = "area_threshold_px", kTelltaleKey = "telltale";
-inline constexpr std::array<std::string_view, 4> kTagKeys{kLevelKey, kQuotaKey, kAreaKey, kTelltaleKey};
+                                  kAreaKey = "area_threshold_px", kTelltaleKey = "telltale", kMethodKey = "method",
+                                  kSettingsKey = "method_settings", kRegionsKey = "regions";
+inline constexpr std::array<std::string_view, 7> kTagKeys{kLevelKey,  kQuotaKey,    kAreaKey,   kTelltaleKey,
+                                                          kMethodKey, kSettingsKey, kRegionsKey};
 
 /// A value as JSON or an option can give it.
 struct TagValue {
   std::optional<double> number;
   std::optional<bool> truth;
-  std::optional<std::string> text;  // an option's words are text; "3" is then a number as well
+  std::optional<std::string> text;         // an option's words are text; "3" is then a number as well
+  std::optional<std::string> structure{};  // JSON of an object or a list
 };
 
 /// `json` is nlohmann::json or ordered_json.
@@ -30,6 +33,7 @@ TagValue tag_value_of(const Json& json) {
   if (json.is_boolean()) value.truth = json.template get<bool>();
   else if (json.is_number()) value.number = json.template get<double>();
   else if (json.is_string()) value.text = json.template get<std::string>();
+  else if (json.is_structured()) value.structure = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return value;
 }
 

@@ -54,25 +54,37 @@ PositionIds number_positions(std::span<const Vec3> positions) {
 }
 
 void weld_vertices(Mesh& mesh) {
-  WordsMap<5> seen;
+  WordsMap<7> seen;
   seen.reserve(mesh.positions.size());
   Mesh welded;
+  welded.vertex_groups.resize(mesh.vertex_groups.size());
   for (std::uint32_t& index : mesh.indices) {
-    const Vec3& p = mesh.positions[index];
-    const std::uint32_t normal = mesh.normals.empty() ? 0 : pack_normal(mesh.normals[index]).bits;
-    const std::uint32_t colour = mesh.colours.empty() ? 0 : mesh.colours[index].bits;
-    const auto [at, fresh] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z), normal, colour},
+    const std::uint32_t v = index;
+    const Vec3& p = mesh.positions[v];
+    const std::uint32_t normal = mesh.normals.empty() ? 0 : pack_normal(mesh.normals[v]).bits;
+    const std::uint32_t colour = mesh.colours.empty() ? 0 : mesh.colours[v].bits;
+    const TexCoord t = mesh.texture_coordinates.empty() ? TexCoord{} : mesh.texture_coordinates[v];
+    const auto [at, fresh] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z), normal, colour, bits(t.s), bits(t.t)},
                                               static_cast<std::uint32_t>(welded.positions.size()));
+    index = at->second;
     if (fresh) {
       welded.positions.push_back(p);
-      if (!mesh.normals.empty()) welded.normals.push_back(mesh.normals[index]);
-      if (!mesh.colours.empty()) welded.colours.push_back(mesh.colours[index]);
+      if (!mesh.normals.empty()) welded.normals.push_back(mesh.normals[v]);
+      if (!mesh.colours.empty()) welded.colours.push_back(mesh.colours[v]);
+      if (!mesh.texture_coordinates.empty()) welded.texture_coordinates.push_back(t);
     }
-    index = at->second;
+    for (std::size_t g = 0; g < mesh.vertex_groups.size(); ++g) {
+      std::vector<std::uint8_t>& members = welded.vertex_groups[g].members;
+      if (fresh) members.push_back(0);
+      members[index] |= mesh.vertex_groups[g].members[v];
+    }
   }
   mesh.positions = std::move(welded.positions);
   mesh.normals = std::move(welded.normals);
   mesh.colours = std::move(welded.colours);
+  mesh.texture_coordinates = std::move(welded.texture_coordinates);
+  for (std::size_t g = 0; g < mesh.vertex_groups.size(); ++g)
+    mesh.vertex_groups[g].members = std::move(welded.vertex_groups[g].members);
 }
 
 std::uint32_t remove_faces_without_area(Mesh& mesh) {

@@ -21,8 +21,9 @@ PositionIds number_positions(std::span<const Vec3> positions);
 /// stay a ring of open edges.
 void drop_rounding_noise(Mesh& mesh);
 
-/// Joins vertices of equal position, packed normal and colour; drops unreferenced ones. Vertices come out in the order
-/// in which faces first use them, so neighbours in space are neighbours in ROM. Faces stay as they are.
+/// Joins vertices of equal position, packed normal, colour and texture coordinate; drops unreferenced ones. Vertices
+/// come out in the order in which faces first use them, so neighbours in space are neighbours in ROM. Faces stay as
+/// they are. A joined vertex is in a group where one of those joined was.
 void weld_vertices(Mesh& mesh);
 
 /// Removes faces with two corners at one position, which draw nothing. Returns how many.

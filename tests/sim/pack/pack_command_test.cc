@@ -280,7 +280,7 @@ TEST(InspectCommand, ShowsEveryMeshInATableAndInJson) {
   const std::string rom = packed(folder, {car(folder), "--level", "wheel=3", "--quota", "wheel=25%"});
   const CommandResult table = run_usuzumi({"inspect", rom});
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(table.out, AllOf(HasSubstr("container version 1.0"), HasSubstr("4 meshes"), HasSubstr("sound"),
+  EXPECT_THAT(table.out, AllOf(HasSubstr("container version 1.1"), HasSubstr("4 meshes"), HasSubstr("sound"),
                                HasSubstr("wheel#2"), HasSubstr("3 collapse"), HasSubstr("25%")));
   const json all = inspected(rom);
   EXPECT_EQ(all["sound"], true);
