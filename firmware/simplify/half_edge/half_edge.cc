@@ -61,13 +61,13 @@ class HalfEdgeSimplifier {
   bool collapse_next(EdgeKey key);
   void put_off(EdgeKey key);
   void push_edge(Corner edge);
-  bool try_collapse(const HalfEdge& half_edge);
+  std::uint32_t try_collapse(const HalfEdge& half_edge);
   bool has_successors(const HalfEdge& half_edge, const WedgeMatching& matching) const;
   void replace_wedges(const HalfEdge& half_edge, const WedgeMatching& matching);
   void merge_quadrics(const HalfEdge& half_edge);
   void tell_successions(std::uint32_t from, const WedgeMatching& matching);
   void update_seams_around(std::uint32_t v);
-  void refuse(Corner edge, const HalfEdge& half_edge);
+  void refuse(Corner edge, std::uint32_t ways);
   void allow_again_around(std::uint32_t v);
   void allow_again_at(std::uint32_t v);
 
@@ -142,7 +142,7 @@ bool HalfEdgeSimplifier::find_candidates() {
 void HalfEdgeSimplifier::offer(std::span<const Corner> edges) {
   const EdgeKey end = penalised_too_ ? kEdgeKeyMax : kPenalised;
   for (const Corner edge : edges) {
-    const EdgeKey key = costs_.cheapest(edge, refused_ways(edge)).key;
+    const EdgeKey key = costs_.least_key(edge, refused_ways(edge));
     if (key < end) passes_.add(key);
   }
   outcome_.work.edges_costed += edges.size();
@@ -155,7 +155,7 @@ bool HalfEdgeSimplifier::collapse_next(EdgeKey key) {
   if ((surface_.links[edge] & (kRepresentative | kRefused)) != kRepresentative) return true;
   const HalfEdge half_edge = cheapest(edge);
   if (half_edge.key > key && !passes_.is_next(half_edge.key)) put_off(half_edge.key);
-  else if (!try_collapse(half_edge)) refuse(edge, half_edge);
+  else if (const std::uint32_t refused = try_collapse(half_edge); refused != 0) refuse(edge, refused);
   return !log_is_full();
 }
 
@@ -166,16 +166,21 @@ void HalfEdgeSimplifier::put_off(EdgeKey key) {
   if (!passes_.put_off(key) && key < kPenalised) left_behind_ = penalised_too_;
 }
 
-void HalfEdgeSimplifier::push_edge(Corner edge) { put_off(cheapest(edge).key); }
+void HalfEdgeSimplifier::push_edge(Corner edge) {
+  ++outcome_.work.edges_costed;
+  put_off(costs_.least_key(edge, refused_ways(edge)));
+}
 
-bool HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
+/// The ways that are refused; 0 where it has collapsed.
+std::uint32_t HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
   Neighbourhood n;
   n.a = half_edge.from;
   n.b = half_edge.to;
-  if (!rules_.keeps_topology(n) || rules_.turns_a_face(n, surface_.position(n.b))) return false;
-  const bool has_wedges = working_.seam_map != nullptr;
+  if (!rules_.keeps_topology(n)) return kBothRefused;  // whichever end goes, the same vertices become one
+  const std::uint32_t this_way = half_edge.forward ? kForwardRefused : kBackwardRefused;
+  if (rules_.turns_a_face(n, surface_.position(n.b))) return this_way;
   const WedgeMatching matching(surface_, mesh_.groups, n.a, n.b);
-  if (has_wedges && !has_successors(half_edge, matching)) return false;
+  if (!has_successors(half_edge, matching)) return this_way;
 
   if (options_.log != nullptr) options_.log->begin_step();
   replace_wedges(half_edge, matching);
@@ -194,7 +199,7 @@ bool HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
     push_edge(collapsed.uncosted[i]);
   }
   if (n.touches_refused) allow_again_around(n.b);
-  return true;
+  return 0;
 }
 
 bool HalfEdgeSimplifier::has_successors(const HalfEdge& half_edge, const WedgeMatching& matching) const {
@@ -265,11 +270,10 @@ void HalfEdgeSimplifier::update_seams_around(std::uint32_t v) {
     for (const Corner other : {next_in_face(c), previous_in_face(c)}) push_at(surface_.vertex_at(other));
 }
 
-void HalfEdgeSimplifier::refuse(Corner edge, const HalfEdge& half_edge) {
-  const std::uint32_t way = half_edge.forward ? kForwardRefused : kBackwardRefused;
-  refused_[edge >> 2] = static_cast<std::uint8_t>(refused_[edge >> 2] | way << (2 * (edge & 3)));
-  surface_.places[half_edge.from].mark |= kTouchesRefused;
-  surface_.places[half_edge.to].mark |= kTouchesRefused;
+void HalfEdgeSimplifier::refuse(Corner edge, std::uint32_t ways) {
+  refused_[edge >> 2] = static_cast<std::uint8_t>(refused_[edge >> 2] | ways << (2 * (edge & 3)));
+  surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
+  surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
   if (refused_ways(edge) == kBothRefused) surface_.links[edge] |= kRefused;
   else push_edge(edge);
 }

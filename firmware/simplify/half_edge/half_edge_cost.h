@@ -50,6 +50,8 @@ class HalfEdgeCosts {
   /// The cheaper of an edge's two collapses, forward on a tie; `refused` (kForwardRefused, kBackwardRefused) are left
   /// out.
   HalfEdge cheapest(Corner edge, std::uint32_t refused) const;
+  /// Its key alone.
+  EdgeKey least_key(Corner edge, std::uint32_t refused) const;
 
   /// Twice the squared diagonal of the mesh's bounding box: no point is further from a face, and the quadrics weigh a
   /// face with twice its area, so that a is no less than the Dist of any faces' planes.
@@ -60,7 +62,12 @@ class HalfEdgeCosts {
   void merge_areas(std::uint32_t from, std::uint32_t to) { areas_[to] += areas_[from]; }
 
  private:
-  HalfEdge cheapest_at_seam(HalfEdge forward, HalfEdge backward, Corner edge, std::uint32_t refused) const;
+  struct BothWays {
+    std::uint32_t a, b;
+    float forward, backward;  // Dist of a to b, of b to a
+  };
+  BothWays both_ways(Corner edge) const;
+  HalfEdge cheapest_at_seam(const BothWays& ways, Corner edge, std::uint32_t refused) const;
 
   const Surface* surface_ = nullptr;
   const Seams* seams_ = nullptr;

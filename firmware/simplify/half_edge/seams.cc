@@ -105,24 +105,28 @@ Seams::Edge Seams::edge(std::uint32_t a, std::uint32_t b) const {
   return result;
 }
 
-bool Seams::folds(std::uint32_t from, std::uint32_t to) const {
+bool Seams::folds(std::uint32_t a, std::uint32_t b) const {
   const Surface& s = *surface_;
-  for (Corner c = s.first_corner(from); c != kNoCorner; c = s.next_corner_of(c)) {
+  for (Corner c = s.first_corner(a); c != kNoCorner; c = s.next_corner_of(c)) {
     const std::uint32_t p = s.vertex_at(next_in_face(c)), q = s.vertex_at(previous_in_face(c));
-    if (p != to && q != to) continue;
-    const std::uint32_t apex = p == to ? q : p;
-    if (is_seam(apex) && edge(from, apex).is_seam && edge(to, apex).is_seam) return true;
+    if (p != b && q != b) continue;
+    const std::uint32_t apex = p == b ? q : p;
+    if (is_seam(apex) && edge(a, apex).is_seam && edge(b, apex).is_seam) return true;
   }
   return false;
 }
 
-SeamRelation Seams::relation(std::uint32_t from, std::uint32_t to) const {
+Seams::Edge Seams::look_at_edge(std::uint32_t a, std::uint32_t b) const {
+  if (!is_seam(a) || !is_seam(b)) return {};
+  Edge result = edge(a, b);
+  result.folds = result.is_seam && !(is_cross(a) && is_cross(b)) && folds(a, b);
+  return result;
+}
+
+SeamRelation Seams::relation(std::uint32_t from, std::uint32_t to, const Edge& edge) const {
   SeamRelation r{.from_seam = is_seam(from), .from_cross = is_cross(from), .to_seam = is_seam(to)};
-  if (!r.from_seam) return r;
-  Edge on;
-  if (r.to_seam) on = edge(from, to);
-  r.edge_seam = on.is_seam && (r.from_cross || !folds(from, to));
-  r.leaves_border = (surface_->places[from].mark & kSingular) != 0 && !on.is_border;
+  r.edge_seam = edge.is_seam && (r.from_cross || !edge.folds);
+  r.leaves_border = (surface_->places[from].mark & kSingular) != 0 && !edge.is_border;
   return r;
 }
 

@@ -40,21 +40,26 @@ class Seams {
   void update(std::uint32_t v);
 
   bool is_seam(std::uint32_t v) const { return (words_[v] & kSeam) != 0; }
+  /// One of the two is a seam vertex.
+  bool touches(std::uint32_t a, std::uint32_t b) const { return ((words_[a] | words_[b]) & kSeam) != 0; }
   bool is_cross(std::uint32_t v) const { return (words_[v] & kCross) != 0; }
   /// IsSeam(vs, vt), but for an edge along which a seam would fold: where vs is no cross and going to vt lays its two
   /// seam edges onto each other, an island, or a strip between two seams, of one face goes. Such an edge does not
   /// count.
-  SeamRelation relation(std::uint32_t from, std::uint32_t to) const;
+  struct Edge {
+    bool is_seam = false;
+    bool is_border = false;
+    bool folds = false;  // looked for only where the edge is a seam and one end is no cross
+  };
+  /// The same seen from either end.
+  Edge look_at_edge(std::uint32_t a, std::uint32_t b) const;
+  SeamRelation relation(std::uint32_t from, std::uint32_t to, const Edge& edge) const;
 
  private:
   static constexpr std::uint32_t kSeam = 1u << 31, kCross = 1u << 30;  // below: a corner, while a vertex is looked at
 
-  struct Edge {
-    bool is_seam = false;
-    bool is_border = false;
-  };
   Edge edge(std::uint32_t a, std::uint32_t b) const;
-  bool folds(std::uint32_t from, std::uint32_t to) const;
+  bool folds(std::uint32_t a, std::uint32_t b) const;
   bool has_several_wedges(std::uint32_t v) const;
   bool may_touch_seam(std::uint32_t v) const;
   bool wedges_differ(Corner one, Corner other, std::uint32_t other_end) const;

@@ -15,6 +15,12 @@ std::uint32_t group_of(std::span<const MaterialGroup> groups, std::uint32_t wedg
 WedgeMatching::WedgeMatching(const Surface& surface, std::span<const MaterialGroup> groups, std::uint32_t from,
                              std::uint32_t to)
     : surface_(surface), groups_(groups), to_(to) {
+  if (surface.vertex_of_wedge == nullptr) {  // every wedge is its own vertex
+    from_[0] = from;
+    successor_[0] = to;
+    count_ = 1;
+    return;
+  }
   for (Corner c = surface.first_corner(from); c != kNoCorner; c = surface.next_corner_of(c)) {
     const Corner next = next_in_face(c), previous = previous_in_face(c);
     const bool runs_out = surface.vertex_at(next) == to;

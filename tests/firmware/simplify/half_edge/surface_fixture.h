@@ -52,7 +52,9 @@ struct TestSurface {
       if (mesh.positions[v] == p) return vertex_of_wedge[v];
     return 0xFFFFFFFFu;
   }
-  firmware::SeamRelation relation(Vec3 from, Vec3 to) const { return seams.relation(at(from), at(to)); }
+  firmware::SeamRelation relation(Vec3 from, Vec3 to) const {
+    return seams.relation(at(from), at(to), seams.look_at_edge(at(from), at(to)));
+  }
   /// The collapse of the edge from one position to another, and no other.
   firmware::HalfEdge half_edge(Vec3 from, Vec3 to) {
     const firmware::Surface& s = surface();
