@@ -13,16 +13,22 @@
 
 namespace usuzumi::firmware {
 
-/// Sizes for a mesh of `face_count` faces, as measured for QEM (qem/qem_scratch.cc).
+/// Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges
+/// that grow dearer leave the table at once and are found again by a later fill, many at a time; more were measured to
+/// be slower. Small meshes keep half of their edges: there a fill is what costs. Both numbers by measuring QEM.
 constexpr std::uint64_t edge_candidate_slots(std::uint64_t face_count) {
+  constexpr std::uint64_t kCandidatesOfSmallMeshes = 2048;
   const std::uint64_t some = face_count / 4;
   const std::uint64_t half = face_count * 3 / 4 + 16;
-  const std::uint64_t least = half < 2048 ? half : 2048;
+  const std::uint64_t least = half < kCandidatesOfSmallMeshes ? half : kCandidatesOfSmallMeshes;
   return some > least ? some : least;
 }
+/// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 58 bytes each
+/// with their vertices) is to stay in the nearer caches. By measuring.
 constexpr std::uint64_t edge_batch_size(std::uint64_t face_count) {
+  constexpr std::uint64_t kMostInBatch = 2048;
   const std::uint64_t slots = edge_candidate_slots(face_count);
-  return slots < 2048 ? slots : 2048;
+  return slots < kMostInBatch ? slots : kMostInBatch;
 }
 /// A batch, and room for edges that collapses bring up.
 constexpr std::uint64_t edge_queue_slots(std::uint64_t face_count) {

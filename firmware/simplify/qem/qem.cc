@@ -5,7 +5,7 @@
 // mostly rise as quadrics are summed, and then that is the same order; an edge whose cost has fallen (by midpoint
 // placement, by the pull towards the edge's middle or where the minimum could not be used) is taken later than it might
 // be. And edges are not ordered over the whole mesh but region by region up to a cost that rises from pass to pass
-// (edge_candidates.h): memory is then walked along, not jumped about in, and the time per face hardly grows with the
+// (edge_passes.h): memory is then walked along, not jumped about in, and the time per face hardly grows with the
 // mesh.
 #include "firmware/simplify/qem/qem.h"
 
@@ -14,11 +14,10 @@
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/collapse_rules.h"
 #include "firmware/simplify/edge_collapse.h"
+#include "firmware/simplify/edge_passes.h"
 #include "firmware/simplify/initial_quadrics.h"
 #include "firmware/simplify/log_recorder.h"
-#include "firmware/simplify/qem/edge_candidates.h"
 #include "firmware/simplify/qem/edge_cost.h"
-#include "firmware/simplify/qem/edge_queue.h"
 #include "firmware/simplify/qem/qem_scratch.h"
 #include "firmware/simplify/qem/texture_error.h"
 #include "firmware/simplify/surface.h"
@@ -26,8 +25,6 @@
 
 namespace usuzumi::firmware {
 namespace {
-
-constexpr std::uint32_t kEdgesAtOnce = 256;  // costed in one go when candidates are looked for; arbitrary
 
 // Planes that touch a curved surface meet outside it, but not as far outside as evens out the chords of the faces
 // between: simplified to the quadrics' minima, a ball shrinks. Moving along the mean normal until the collapse keeps
@@ -49,8 +46,7 @@ Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
 class QemSimplifier {
  public:
   QemSimplifier(WorkingMesh& mesh, const SimplifyOptions& options)
-      : mesh_(mesh), options_(options), recorder_(options.log, working_), rules_(surface_), candidates_({}),
-        queue_({}) {}
+      : mesh_(mesh), options_(options), recorder_(options.log, working_), rules_(surface_) {}
 
   Result<SimplifyOutcome> run(Arena& scratch) {
     if (!carve(scratch)) return Status{StatusCode::kResourceExhausted, "scratch is smaller than qem_scratch_bytes", 0};
@@ -71,12 +67,7 @@ class QemSimplifier {
  private:
   bool carve(Arena& scratch);
   void collapse_to_target();
-  void fetch_ahead();
-  bool find_candidates();
-  void run_pass(std::size_t rank);
-  void collapse_next();
-  void fetch_vertex_at(Corner c);
-  void fetch_region(std::span<const EdgeKey> batch);
+  void collapse_next(EdgeKey key);
   void put_off(EdgeKey key);
   void offer(std::span<const Corner> edges);
   void push_edge(Corner edge);
@@ -100,11 +91,8 @@ class QemSimplifier {
   CollapseRules rules_;
   TextureError texture_;
   std::span<TextureFit> texture_fits_;
-  EdgeCandidates candidates_;
-  EdgeQueue queue_;  // a batch of candidates
-  std::size_t batch_size_ = 0;
-  EdgeKey limit_ = 0;  // of the pass: what costs more is left for a later one
-  std::uint32_t faces_ = 0;            // live
+  EdgePasses passes_;
+  std::uint32_t faces_ = 0;  // live
   SimplifyOutcome outcome_;
 };
 
@@ -114,15 +102,13 @@ bool QemSimplifier::carve(Arena& scratch) {
     return false;
   memory_ = memory.surface;
   texture_fits_ = memory.texture_fits;
-  candidates_ = EdgeCandidates(memory.candidates);
-  queue_ = EdgeQueue(memory.queue);
-  batch_size_ = memory.batch_size;
+  passes_ = EdgePasses(surface_, memory.candidates, memory.queue, memory.batch_size);
   return true;
 }
 
 void QemSimplifier::collapse_to_target() {
   while (faces_ > options_.target_faces && !recorder_.full()) {
-    if (candidates_.size() == 0 && !find_candidates()) {
+    if (passes_.empty() && !passes_.fill([this](std::span<const Corner> edges) { offer(edges); })) {
       outcome_.stop = StopReason::kNoCollapseAllowed;
       return;
     }
@@ -130,62 +116,22 @@ void QemSimplifier::collapse_to_target() {
     // reach the target before every region has had its turn; the last batch is then one of the whole mesh, by cost
     // alone.
     const std::size_t most = (faces_ - options_.target_faces) / 2;
-    run_pass(most > batch_size_ ? most : batch_size_);
+    passes_.run(most > passes_.batch_size() ? most : passes_.batch_size(), kEdgeKeyMax, [this](EdgeKey key) {
+      if (faces_ <= options_.target_faces || recorder_.full()) return false;
+      collapse_next(key);
+      return true;
+    });
   }
 }
 
-/// Collapses what costs less than all but `rank` of the candidates, region by region.
-void QemSimplifier::run_pass(std::size_t rank) {
-  limit_ = candidates_.key_of_rank(rank);
-  candidates_.begin_pass();
-  for (;;) {
-    const std::size_t count = candidates_.take(limit_, queue_.slots().first(batch_size_));
-    if (count == 0) return;
-    fetch_region(queue_.slots().first(count));
-    queue_.start(count);
-    while (!queue_.empty()) {
-      if (faces_ <= options_.target_faces || recorder_.full()) return;
-      collapse_next();
-    }
-  }
-}
-
-// Inlined by force, as those below: GCC takes a function that only prefetches for one without effect, and drops the
-// call. A vertex may lie on two cache lines.
-[[gnu::always_inline]] inline void QemSimplifier::fetch_vertex_at(Corner c) {
-  const std::uint32_t v = surface_.vertex_at(c);
-  __builtin_prefetch(&surface_.places[v]);
-  __builtin_prefetch(&surface_.vertices[v]);
-  __builtin_prefetch(&surface_.vertices[v].first_corner);
-}
-
-// Asks for the batch's part of the mesh in the order it lies in memory; the batch then goes about in it by cost.
-[[gnu::always_inline]] inline void QemSimplifier::fetch_region(std::span<const EdgeKey> batch) {
-  std::uint32_t first = surface_.face_count, last = 0;
-  for (const EdgeKey key : batch) {
-    const std::uint32_t face = edge_of(key) >> 2;
-    first = face < first ? face : first;
-    last = face > last ? face : last;
-  }
-  constexpr std::size_t kMostFacesPerEdge = 64;  // beyond, most of what would be asked for is not needed; arbitrary
-  if ((last - first) / kMostFacesPerEdge > batch.size()) return;
-  for (std::uint32_t face = first; face <= last; ++face) {
-    if (surface_.is_dead(face)) continue;
-    __builtin_prefetch(&surface_.links[face * 4]);
-    for (std::uint32_t k = 0; k < 3; ++k) fetch_vertex_at(face * 4 + k);
-  }
-}
-
-void QemSimplifier::collapse_next() {
-  const EdgeKey key = queue_.pop();
-  fetch_ahead();
+void QemSimplifier::collapse_next(EdgeKey key) {
   ++outcome_.work.queue_operations;
   const Corner edge = edge_of(key);
   // Its face may be gone, or another half-edge may stand for the edge now.
   if ((surface_.links[edge] & kRepresentative) == 0) return;
   EdgeCost cost = cost_of_edge(edge);
   const EdgeKey now = edge_key(cost.cost, edge);
-  if (now > key && (now > queue_.top() || now >= limit_)) {
+  if (now > key && !passes_.is_next(now)) {
     put_off(now);
     return;
   }
@@ -195,54 +141,19 @@ void QemSimplifier::collapse_next() {
 
 /// To its place in the batch, or in a later pass.
 void QemSimplifier::put_off(EdgeKey key) {
-  if (key >= limit_ || !queue_.push(key)) candidates_.keep(key);
+  (void)passes_.put_off(key);  // an edge without room is found by a later fill
   ++outcome_.work.queue_operations;
 }
 
-// What the next edges of the batch will need is asked for while this one is worked on.
-[[gnu::always_inline]] inline void QemSimplifier::fetch_ahead() {
-  constexpr std::size_t kFar = 8, kNear = 4;
-  if (queue_.run_left() <= kFar) return;
-  const Corner far = edge_of(queue_.in_run(kFar));
-  __builtin_prefetch(&surface_.links[far]);
-  __builtin_prefetch(&surface_.indices[corner_index(far)]);
-  const Corner near = edge_of(queue_.in_run(kNear));
-  if ((surface_.links[near] & kRepresentative) == 0) return;
-  fetch_vertex_at(near);
-  fetch_vertex_at(next_in_face(near));
-}
-
-/// The cheapest of all edges but the refused ones, as many as fit. False where there is none.
-bool QemSimplifier::find_candidates() {
-  // Found first and costed after, a block at a time: each loop then runs without surprises for the processor.
-  Corner edges[kEdgesAtOnce + 3];
-  std::uint32_t count = 0;
-  candidates_.begin_fill();
-  for (std::uint32_t face = 0; face < surface_.face_count; ++face) {
-    const std::uint32_t* links = surface_.links + std::size_t{face} * 4;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      // Stored in any case, counted where it stands for an edge: as good as random, so no branch.
-      edges[count] = face * 4 + k;
-      count += (links[k] & (kRepresentative | kRefused)) == kRepresentative ? 1u : 0u;
-    }
-    if (count < kEdgesAtOnce) continue;
-    offer({edges, kEdgesAtOnce});
-    count -= kEdgesAtOnce;
-    for (std::uint32_t i = 0; i < count; ++i) edges[i] = edges[kEdgesAtOnce + i];
-  }
-  if (count > 0) offer({edges, count});
-  return candidates_.size() > 0;
-}
-
 void QemSimplifier::offer(std::span<const Corner> edges) {
-  float costs[kEdgesAtOnce];
+  float costs[EdgePasses::kEdgesAtOnce];
   if (texture_.active()) {
     for (std::size_t i = 0; i < edges.size(); ++i)
       costs[i] = texture_.cost_edge(surface_, edges[i], options_.placement).cost;
   } else {
     cost_edges(surface_, edges, options_.placement, costs);
   }
-  for (std::size_t i = 0; i < edges.size(); ++i) candidates_.offer(edge_key(costs[i], edges[i]));
+  for (std::size_t i = 0; i < edges.size(); ++i) passes_.add(edge_key(costs[i], edges[i]));
   outcome_.work.edges_costed += edges.size();
 }
 

@@ -1,5 +1,6 @@
 #include "firmware/simplify/qem/qem_scratch.h"
 
+#include "firmware/simplify/edge_passes.h"
 #include "firmware/simplify/qem/qem.h"
 #include "firmware/simplify/weld.h"
 
@@ -12,31 +13,9 @@ constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add 
 // compared.
 constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
-// Candidates kept by a fill: a sixth of a closed surface's edges. A fill's horizon is then low, so that most edges that
-// grow dearer leave the table at once and are found again, four at a time, by a later fill; more were measured to be
-// slower. Small meshes keep half of their edges: there a fill is what costs. Both numbers by measuring.
-constexpr std::uint64_t kCandidatesOfSmallMeshes = 2048;
-constexpr std::uint64_t candidate_slots(std::uint64_t face_count) {
-  const std::uint64_t some = face_count / 4;
-  const std::uint64_t half = face_count * 3 / 4 + 16;
-  const std::uint64_t least = half < kCandidatesOfSmallMeshes ? half : kCandidatesOfSmallMeshes;
-  return some > least ? some : least;
-}
-
-// Edges taken from the candidates at a time. Their part of the mesh (mostly five to ten thousand faces, 58 bytes each
-// with their vertices) is to stay in the nearer caches. By measuring.
-constexpr std::uint64_t kMostInBatch = 2048;
-constexpr std::uint64_t batch_size(std::uint64_t face_count) {
-  const std::uint64_t slots = candidate_slots(face_count);
-  return slots < kMostInBatch ? slots : kMostInBatch;
-}
-constexpr std::uint64_t queue_slots(std::uint64_t face_count) {
-  return batch_size(face_count) + batch_size(face_count) / 8;
-}
-
 constexpr std::uint64_t links_and_keys_bytes(std::uint32_t vertex_count, std::uint64_t face_count) {
-  const std::uint64_t later = aligned(face_count * 16) + aligned(candidate_slots(face_count) * sizeof(EdgeKey)) +
-                              aligned(queue_slots(face_count) * sizeof(EdgeKey));
+  const std::uint64_t later = aligned(face_count * 16) + aligned(edge_candidate_slots(face_count) * sizeof(EdgeKey)) +
+                              aligned(edge_queue_slots(face_count) * sizeof(EdgeKey));
   const std::uint64_t table = weld_table_slots(vertex_count) * 4;
   return later > table ? later : table;
 }
@@ -71,9 +50,9 @@ bool carve_qem_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t f
       rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
   rest.rewind(mark);
   scratch.surface.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
-  scratch.candidates = rest.allocate<EdgeKey>(static_cast<std::size_t>(candidate_slots(face_count)), kAlignment);
-  scratch.queue = rest.allocate<EdgeKey>(static_cast<std::size_t>(queue_slots(face_count)), kAlignment);
-  scratch.batch_size = static_cast<std::size_t>(batch_size(face_count));
+  scratch.candidates = rest.allocate<EdgeKey>(static_cast<std::size_t>(edge_candidate_slots(face_count)), kAlignment);
+  scratch.queue = rest.allocate<EdgeKey>(static_cast<std::size_t>(edge_queue_slots(face_count)), kAlignment);
+  scratch.batch_size = static_cast<std::size_t>(edge_batch_size(face_count));
   return true;
 }
 
