@@ -103,12 +103,15 @@ void EdgeRemover::set_author_values() {
   }
 }
 
+/// Where images differ at the other end alone, a boundary comes to a point here. But where two such edges meet, one
+/// goes on through this vertex, at which both images happen to be the same.
 void EdgeRemover::count_border_edges() {
   for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) {
     // Without seams only what is singular has a boundary.
     if (working_.seam_map == nullptr && (surface_.places[v].mark & kSingular) == 0) continue;
-    std::uint32_t& count = memory_.vertices[v].border_edges;
-    visit_border_edges(surface_, images_, v, [&](const BorderEdge&) { ++count; });
+    std::uint32_t here = 0, elsewhere = 0;
+    visit_border_edges(surface_, images_, v, [&](const BorderEdge& border) { ++(border.here ? here : elsewhere); });
+    memory_.vertices[v].border_edges = here + (elsewhere > 1 ? elsewhere : 0);
   }
 }
 
@@ -222,7 +225,7 @@ bool EdgeRemover::swallows_an_island(const Neighbourhood& n) {
   for (std::uint32_t end = 0; end < 2; ++end) {
     visit_border_edges(surface_, images_, end == 0 ? n.a : n.b, [&](const BorderEdge& border) {
       for (std::uint32_t i = 0; i < n.apex_count; ++i)
-        if (n.apexes[i] == border.other) met[end] |= 1u << i;
+        if (border.is_boundary() && n.apexes[i] == border.other) met[end] |= 1u << i;
     });
   }
   return (met[0] & met[1]) != 0;

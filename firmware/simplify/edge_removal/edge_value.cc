@@ -69,7 +69,7 @@ EdgeShape EdgeValues::shape_of(Corner edge) const {
 void EdgeValues::look_at_outline(std::uint32_t end, std::uint32_t other, Vec3 edge, bool at_a,
                                  EndChange& change) const {
   visit_border_edges(surface_, images_, end, [&](const BorderEdge& border) {
-    if (border.other == other) return;
+    if (border.other == other || !border.here) return;
     const Vec3 first = twice_area_vector(surface_, border.one);
     Vec3 m = border.two == kNoCorner ? first : first + twice_area_vector(surface_, border.two);
     if (!(dot(m, m) > 0)) m = first;

@@ -12,7 +12,7 @@ namespace usuzumi::firmware {
 /// What edge removal keeps of a vertex beside its Place and Vertex.
 struct RemovalVertex {
   float author_value = 0;          // the largest of its wedges' edge_values; kLockedEdgeValue where one is locked
-  std::uint32_t border_edges = 0;  // boundary edges here: 0 inside, 2 along a boundary, else a corner that stays
+  std::uint32_t border_edges = 0;  // where images differ here: 0 inside, 2 along a boundary, else a corner that stays
 };
 static_assert(sizeof(RemovalVertex) == 8);
 

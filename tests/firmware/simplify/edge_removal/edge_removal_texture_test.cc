@@ -284,6 +284,34 @@ TEST(EdgeRemovalTexture, GroupsOfMaterialsAreImages) {
   }
 }
 
+TEST(EdgeRemovalTexture, ABoundaryGoesOnThroughAPlaceWhereItsImagesMeet) {
+  // A sheet of two images that meet at x = 4 and are the same at y = 4 there.
+  Mesh mesh;
+  for (const bool right : {false, true}) {
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    const Mesh half = grid(4, 8);
+    for (const Vec3 p : half.positions) {
+      const Vec3 place{right ? p.x + 4 : p.x, p.y, 0};
+      mesh.positions.push_back(place);
+      mesh.texture_coordinates.push_back({right ? place.x + (place.y - 4) * 3 : place.x, place.y});
+    }
+    for (const std::uint32_t i : half.indices) mesh.indices.push_back(base + i);
+  }
+  for (const std::uint32_t target : {60u, 30u, 10u, 4u}) {
+    SCOPED_TRACE(target);
+    const Mesh thinned = thin(mesh, options_of(target)).mesh;
+    EXPECT_LE(thinned.face_count(), 12u + target);
+    for (std::size_t i = 0; i < thinned.indices.size(); i += 3) {
+      float least = 8, most = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float x = thinned.positions[thinned.indices[i + k]].x;
+        least = std::min(least, x), most = std::max(most, x);
+      }
+      EXPECT_TRUE(most <= 4 || least >= 4) << "face " << i / 3 << " lies across the boundary";
+    }
+  }
+}
+
 TEST(EdgeRemovalTexture, BeyondAnEndCoordinatesGoOnAndColoursStopAtTheirRange) {
   EXPECT_EQ(mixed(TexCoord{1, 2}, TexCoord{2, 6}, -0.25f), (TexCoord{0.75f, 1}));
   EXPECT_EQ(mixed(TexCoord{1, 2}, TexCoord{2, 6}, 1.25f), (TexCoord{2.25f, 7}));
