@@ -26,6 +26,8 @@
 #include "sim/common/standard_streams.h"
 #include "sim/machine/board.h"
 #include "sim/pack/join_parts.h"
+#include "sim/pack/layer_chains.h"
+#include "sim/pack/layer_report.h"
 #include "sim/pack/levels.h"
 #include "sim/pack/load_model.h"
 #include "sim/pack/method_settings.h"
@@ -43,7 +45,7 @@ struct PackOptions {
   std::vector<std::string> inputs;
   std::string output;
   std::string board;
-  std::vector<std::string> sidecars, levels, quotas, areas, telltales, methods, joins;
+  std::vector<std::string> sidecars, levels, quotas, areas, telltales, methods, layers, joins;
   std::optional<std::uint32_t> default_level;
   TexelChoice texels = TexelChoice::kAuto;
   bool mips = true;
@@ -58,6 +60,7 @@ std::vector<TagRule> option_rules(const PackOptions& options) {
   for (const std::string& a : options.quotas) rules.push_back(rule_from_option("--quota", a, kQuotaKey));
   for (const std::string& a : options.areas) rules.push_back(rule_from_option("--area", a, kAreaKey));
   for (const std::string& a : options.methods) rules.push_back(rule_from_option("--method", a, kMethodKey));
+  for (const std::string& a : options.layers) rules.push_back(layers_rule(a));
   for (const std::string& name : options.telltales) {
     TagRule rule{name, {}, "--telltale " + name};
     rule.tags.telltale = true;
@@ -83,10 +86,11 @@ bool beyond_level(Tags tags) {
 void check_bare_can_keep(const std::vector<TagRule>& rules, ExitCode code) {
   for (const TagRule& rule : rules)
     if (beyond_level(rule.tags))
-      throw Error(code,
-                  fmt::format("{}: --bare keeps levels only, no quota, area, telltale, method, settings or regions; "
-                              "leave --bare or this out",
-                              rule.origin));
+      throw Error(
+          code,
+          fmt::format("{}: --bare keeps levels only, no quota, area, telltale, method, settings, regions or layers; "
+                      "leave --bare or this out",
+                      rule.origin));
 }
 
 void note_what_bare_loses(Model& model) {
@@ -98,8 +102,8 @@ void note_what_bare_loses(Model& model) {
       "bare drawing data keep positions, faces (as one strip a mesh) and levels; names, normals, colours and sidedness "
       "are lost");
   if (tagged > 0)
-    model.notes.push_back(
-        fmt::format("face quotas, area thresholds, telltale marks or methods of {} meshes are lost as well", tagged));
+    model.notes.push_back(fmt::format(
+        "face quotas, area thresholds, telltale marks, methods or layers of {} meshes are lost as well", tagged));
   if (textured > 0) model.notes.push_back(fmt::format("the textures of {} meshes are lost as well", textured));
 }
 
@@ -118,8 +122,10 @@ void print_summary(const PackOptions& options, const firmware::DrawingData& data
     vertices += mesh.positions.size();
     faces += mesh.proper_face_count();
   });
-  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes\n", options.output,
-             options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size());
+  const LayerTotals layers = layer_totals(data);
+  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes{}\n", options.output,
+             options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size(),
+             layers.meshes == 0 ? "" : fmt::format(", {} of them layers of {} meshes", layers.bytes, layers.meshes));
 }
 
 /// As the firmware will find it in `rom`.
@@ -129,6 +135,12 @@ firmware::DrawingData checked(const std::vector<std::byte>& rom) {
     throw std::logic_error(
         fmt::format("the ROM just made is unsound: {} {}", opened.status().message, opened.status().where));
   return *opened;
+}
+
+/// The last that happens to the model: chains of layers are of the order of vertices and faces that goes into ROM.
+void prepare(Model& model, const PackOptions& options) {
+  prepare_textures(model, options.texture_size);
+  make_layer_chains(model);
 }
 
 int pack(const PackOptions& options) {
@@ -148,7 +160,7 @@ int pack(const PackOptions& options) {
   join_parts(model, options.joins);
   apply_tags(model, {from_options, from_sidecars, options.default_level});
   if (options.bare) note_what_bare_loses(model);
-  else prepare_textures(model, options.texture_size);
+  else prepare(model, options);
 
   std::optional<Progress> writing(std::in_place, "writing " + options.output);
   const std::vector<std::byte> rom =
@@ -171,12 +183,14 @@ extras, the mesh's extras, --default-level; of several rules from one place that
 
 Examples:
   usuzumi pack car.glb -o car.rom --default-level 1 --level 'Wheel*=3' --quota 'Wheel*=25%' --area 'Wheel*=400'
+  usuzumi pack earth.glb -o earth.rom --default-level 3 --layers 100,60,36,21.6
   usuzumi pack car.glb -o car.rom --sidecar levels.json
 where levels.json is
   {"meshes": {"Wheel*": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": false},
               "Body": {"thinning_level": 3, "method": "edge-removal",
                        "method_settings": {"a": 1, "b": 0.1, "placement": "automatic"},
-                       "regions": [{"group": "rim", "locked": true}, {"material": "logo", "value": 5}]}}}
+                       "regions": [{"group": "rim", "locked": true}, {"material": "logo", "value": 5}],
+                       "layers": [100, 60, 36, 21.6]}}}
 The README has all settings of methods. A texture that is missing or broken is told of, and its meshes are packed
 without it.)";
 
@@ -197,6 +211,10 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   repeated("--area", options->areas, "Area on screen up to which levels 2 to 5 act, in pixels")->type_name("NAME=PX");
   repeated("--method", options->methods, "How level 3 thins: qem, edge-removal, half-edge or vertex-deletion")
       ->type_name("NAME=METHOD");
+  repeated("--layers", options->layers,
+           "Layers of a mesh, or of every mesh of level 3, in per cent of its faces, like 100,60,36,21.6; every step "
+           "between them goes into ROM, and the device need not search for it")
+      ->type_name("[NAME=]LIST");
   repeated("--join", options->joins, "Keep the materials of a mesh together, so that no crack opens between them")
       ->type_name("NAME");
   repeated("--telltale", options->telltales, "Never drop this mesh, whatever memory or policy say")->type_name("NAME");

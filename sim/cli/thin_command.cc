@@ -26,6 +26,7 @@
 #include "sim/common/report_errors.h"
 #include "sim/common/standard_streams.h"
 #include "sim/machine/host_stopwatch.h"
+#include "sim/pack/host_arena.h"
 #include "sim/pack/load_model.h"
 #include "sim/pack/method_settings.h"
 
@@ -49,18 +50,6 @@ std::uint32_t target_of(const FaceQuota& quota, std::uint64_t faces) {
   if (quota.kind == firmware::format::QuotaKind::kFaces) return quota.value;
   return static_cast<std::uint32_t>(faces * quota.value / 1'000'000);
 }
-
-/// The host's memory as the arena that a board would give: not touched where it is not used.
-class HostArena {
- public:
-  explicit HostArena(std::size_t bytes) : memory_(new std::byte[bytes]), arena({memory_.get(), bytes}) {}
-
- private:
-  std::unique_ptr<std::byte[]> memory_;
-
- public:
-  Arena arena;
-};
 
 template <class T>
 std::span<T> copied_into(Arena& arena, const std::vector<T>& source) {

@@ -30,13 +30,15 @@ std::vector<std::string> all_names(const Model& model) {
   return names;
 }
 
+bool is_for(const TagRule& rule, const Mesh& mesh) { return rule.for_all_layered || matches_mesh(rule.pattern, mesh); }
+
 /// The rules' tags by mesh, later rules over earlier ones.
 std::vector<Tags> matched_tags(const Model& model, std::span<const TagRule> rules, ExitCode code) {
   std::vector<Tags> tags(model.meshes.size());
   for (const TagRule& rule : rules) {
     bool used = false;
     for (std::size_t m = 0; m < model.meshes.size(); ++m) {
-      if (!matches_mesh(rule.pattern, model.meshes[m])) continue;
+      if (!is_for(rule, model.meshes[m])) continue;
       tags[m] = merge_tags(rule.tags, tags[m]);
       used = true;
     }
@@ -61,6 +63,27 @@ void note_unused_properties(Model& model) {
   }
 }
 
+/// Layers are made of meshes of level 3 alone. Where they were given by a mesh's name, a note says so.
+void settle_layers(Model& model, std::span<const TagRule> options) {
+  const TagRule* for_all = nullptr;
+  for (const TagRule& rule : options)
+    if (rule.for_all_layered) for_all = &rule;
+  bool any = false;
+  for (Mesh& mesh : model.meshes) {
+    const std::uint32_t level = mesh.tags.level.value_or(0);
+    any = any || level == kLevelCollapse;
+    if (!mesh.tags.layers || level == kLevelCollapse) continue;
+    mesh.tags.layers.reset();
+    const auto from = std::find_if(options.rbegin(), options.rend(),
+                                   [&](const TagRule& rule) { return rule.tags.layers && is_for(rule, mesh); });
+    if (from != options.rend() && from->for_all_layered) continue;
+    model.notes.push_back(fmt::format("mesh '{}': {} are left out: they are for level 3, and its level is {}",
+                                      mesh.name, kLayersKey, level));
+  }
+  if (for_all != nullptr && !any)
+    model.notes.push_back(fmt::format("{} has no effect: no mesh is of level 3", for_all->origin));
+}
+
 /// Settings mean something to their method alone; who gives both must have them agree.
 void check_settings(const Model& model) {
   for (const Mesh& mesh : model.meshes) {
@@ -72,6 +95,14 @@ void check_settings(const Model& model) {
   }
 }
 
+TagRule value_rule(std::string_view option, const std::string& argument, const std::string& pattern,
+                   std::string_view key, const std::string& value) {
+  TagRule rule{pattern, {}, fmt::format("{} {}", option, argument)};
+  const std::string wrong = set_tag(rule.tags, key, TagValue{{}, {}, value});
+  if (!wrong.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: the value {}", rule.origin, wrong));
+  return rule;
+}
+
 }  // namespace
 
 TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key) {
@@ -79,9 +110,14 @@ TagRule rule_from_option(std::string_view option, const std::string& argument, s
   if (equals == std::string::npos || equals == 0)
     throw Error(ExitCode::kUsage, fmt::format("{} {}: wants NAME=VALUE, with a mesh's name (* and ? stand for others)",
                                               option, argument));
-  TagRule rule{argument.substr(0, equals), {}, fmt::format("{} {}", option, argument)};
-  const std::string wrong = set_tag(rule.tags, key, TagValue{{}, {}, argument.substr(equals + 1)});
-  if (!wrong.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: the value {}", rule.origin, wrong));
+  return value_rule(option, argument, argument.substr(0, equals), key, argument.substr(equals + 1));
+}
+
+TagRule layers_rule(const std::string& argument) {
+  constexpr std::string_view kOption = "--layers";
+  if (argument.find('=') != std::string::npos) return rule_from_option(kOption, argument, kLayersKey);
+  TagRule rule = value_rule(kOption, argument, "", kLayersKey, argument);
+  rule.for_all_layered = true;
   return rule;
 }
 
@@ -133,6 +169,7 @@ void apply_tags(Model& model, const TagSources& sources) {
   check_settings(model);
   apply_regions(model);
   note_unused_properties(model);
+  settle_layers(model, sources.options);
   if (!any_level)
     model.notes.push_back(
         "no mesh has a thinning level, so all are kept whole. Give --level NAME=3 or --default-level 3, or in Blender "

@@ -17,16 +17,20 @@ namespace usuzumi::sim {
 struct TagRule {
   std::string pattern;
   Tags tags;
-  std::string origin;  // for messages: "--level Wheel*=3", "car.json: meshes.Wheel*"
+  std::string origin;            // for messages: "--level Wheel*=3", "car.json: meshes.Wheel*"
+  bool for_all_layered = false;  // no pattern: for every mesh that layers are made of, which is of level 3
 };
 
 /// `option` is "--level" and the like, `argument` "NAME=VALUE" (split at the last '='), `key` one of kTagKeys.
 /// Throws Error kUsage.
 TagRule rule_from_option(std::string_view option, const std::string& argument, std::string_view key);
 
+/// The same of "--layers", whose argument may do without "NAME=": it is then for every mesh of level 3.
+TagRule layers_rule(const std::string& argument);
+
 /// {"meshes": {"pattern": {"thinning_level": 3, "face_quota": "25%", "area_threshold_px": 400, "telltale": true,
-/// "method": "edge-removal", "method_settings": {"a": 2}, "regions": [{"group": "rim", "locked": true}]}}};
-/// anything else in the file is an error. Throws Error kBadInput.
+/// "method": "edge-removal", "method_settings": {"a": 2}, "regions": [{"group": "rim", "locked": true}],
+/// "layers": [100, 60, 36]}}}; anything else in the file is an error. Throws Error kBadInput.
 std::vector<TagRule> read_sidecar(const std::filesystem::path& path);
 
 struct TagSources {

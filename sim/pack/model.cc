@@ -11,6 +11,7 @@ Tags merge_tags(const Tags& over, const Tags& under) {
   if (!merged.method) merged.method = under.method;
   if (!merged.settings) merged.settings = under.settings;
   if (!merged.regions) merged.regions = under.regions;
+  if (!merged.layers) merged.layers = under.layers;
   return merged;
 }
 

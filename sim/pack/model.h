@@ -1,6 +1,7 @@
 // A 3D model in the host's memory, whatever file it came from: what pack writes into ROM and what thin works on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -44,8 +45,11 @@ struct Tags {
   std::optional<firmware::Method> method{};
   std::optional<MethodSettings> settings{};
   std::optional<std::vector<EdgeRegion>> regions{};  // where two touch a vertex the later counts
+  std::optional<std::vector<std::uint32_t>> layers{};  // millionths of the faces, falling from 1,000,000; 2 to 16
 
-  bool any() const { return level || quota || area_threshold_px || telltale || method || settings || regions; }
+  bool any() const {
+    return level || quota || area_threshold_px || telltale || method || settings || regions || layers;
+  }
   friend bool operator==(const Tags&, const Tags&) = default;
 };
 
@@ -105,6 +109,7 @@ struct Mesh {
   std::vector<VertexGroup> vertex_groups{};
   std::vector<float> edge_values{};  // as many as positions, or empty; set from Tags::regions
   std::vector<MeshPart> parts{};     // empty: `material` and `base_colour` are the whole mesh's
+  std::vector<std::byte> layer_chain{};  // of this order of vertices and faces (layer_chains.h), or empty
   std::uint32_t placement = 0;       // the same for the primitives that one node places as one mesh of the file
   Tags tags;                         // from the file itself, node over mesh
 

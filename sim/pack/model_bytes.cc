@@ -110,6 +110,15 @@ void optional_regions(Stream& s, std::optional<std::vector<EdgeRegion>>& regions
 }
 
 template <class Stream>
+void optional_layers(Stream& s, std::optional<std::vector<std::uint32_t>>& layers) {
+  std::uint8_t there = layers.has_value();
+  s.value(there);
+  if (there == 0) return;
+  if (!layers) layers.emplace();
+  s.array(*layers);
+}
+
+template <class Stream>
 void mesh_fields(Stream& s, Mesh& mesh) {
   s.array(mesh.name);
   s.array(mesh.mesh_name);
@@ -139,6 +148,7 @@ void mesh_fields(Stream& s, Mesh& mesh) {
   optional_value(s, mesh.tags.method);
   optional_settings(s, mesh.tags.settings);
   optional_regions(s, mesh.tags.regions);
+  optional_layers(s, mesh.tags.layers);
   s.value(mesh.placement);
 }
 

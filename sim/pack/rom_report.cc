@@ -13,6 +13,7 @@
 #include "firmware/drawing_data/drawing_data.h"
 #include "hal/crc32.h"
 #include "sim/pack/appearance_report.h"
+#include "sim/pack/layer_report.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -67,6 +68,7 @@ json mesh_json(const MeshView& mesh) {
   j["vertex_colours"] = !mesh.colours.empty();
   j["base_colour"] = colour_label(mesh.base_colour);
   add_appearance(j, mesh);
+  j["layers"] = layers_json(mesh);
   j["bounding_box"] = {{"min", {box.low.x, box.low.y, box.low.z}}, {"max", {box.high.x, box.high.y, box.high.z}}};
   return j;
 }
@@ -144,6 +146,7 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
   data.for_each_mesh([&](const MeshView& mesh) { out += mesh_line(mesh, totals.name_width); });
   out += "flags: n normals, c vertex colours, x texture coordinates, 2 two-sided, t telltale\n";
   out += appearance_text(data);
+  out += layers_text(data);
   return out;
 }
 

@@ -67,6 +67,7 @@ void RomSections::add_mesh(const Mesh& mesh) {
       (mesh.tags.telltale.value_or(false) ? format::kFlagTelltale : 0) | (mesh.two_sided ? format::kFlagTwoSided : 0);
   add_appearance(mesh, d);
   add_method(mesh, d);
+  add_layers(mesh, d);
   d.name_offset = names_.size();
   d.name_bytes = static_cast<std::uint32_t>(mesh.name.size());
   names_.text(mesh.name);
@@ -132,6 +133,11 @@ void RomSections::add_method(const Mesh& mesh, format::MeshDescriptor& d) {
   if (mesh.edge_values.empty()) return;
   d.edge_value_offset = edge_values_.size();
   for (float value : mesh.edge_values) edge_values_.f32(value);
+}
+
+void RomSections::add_layers(const Mesh& mesh, format::MeshDescriptor& d) {
+  d.layer_offset = mesh.layer_chain.empty() ? kNotThere : layers_.size();
+  layers_.raw(mesh.layer_chain);
 }
 
 void RomSections::add_material(const Material& material) {
@@ -222,6 +228,7 @@ std::vector<RomSections::Placed> RomSections::place(std::uint32_t first_section,
   add(Type::kTexels, std::move(texels_));
   add(Type::kMethods, std::move(methods_));
   add(Type::kEdgeValues, std::move(edge_values_));
+  add(Type::kLayers, std::move(layers_));
   add(Type::kNames, std::move(names_));
   add(Type::kBoard, std::move(board_));
 
@@ -240,6 +247,7 @@ std::vector<RomSections::Placed> RomSections::place(std::uint32_t first_section,
     if ((d.flags & format::kFlagGroups) != 0) d.material += at[Type::kGroups];
     shift_or_zero(d.method_settings_offset, at[Type::kMethods]);
     shift_or_zero(d.edge_value_offset, at[Type::kEdgeValues]);
+    shift_or_zero(d.layer_offset, at[Type::kLayers]);
     d.name_offset += at[Type::kNames];
   }
   for (Placed& section : all) {

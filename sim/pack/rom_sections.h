@@ -40,13 +40,14 @@ class RomSections {
   void add_vertex_data(const Mesh& mesh, firmware::format::MeshDescriptor& d);
   void add_appearance(const Mesh& mesh, firmware::format::MeshDescriptor& d);
   void add_method(const Mesh& mesh, firmware::format::MeshDescriptor& d);
+  void add_layers(const Mesh& mesh, firmware::format::MeshDescriptor& d);
   void add_material(const Material& material);
   void add_texture(const Picture& picture, const RomOptions& options);
   Bytes descriptor_bytes() const;
   Bytes texture_bytes(std::uint32_t texels_at, std::uint32_t names_at) const;
 
   Bytes records_, indices_, normals_, colours_, texture_coordinates_, materials_, texels_, methods_, edge_values_,
-      groups_, names_, board_;
+      groups_, layers_, names_, board_;
   std::vector<firmware::format::MeshDescriptor> meshes_;
   std::vector<firmware::format::Texture> textures_;
   std::map<std::array<std::uint32_t, 10>, std::uint32_t> settings_;  // words -> where they lie in METH

@@ -30,7 +30,7 @@ void check_size(const Model& model) {
   std::uint64_t bytes = 0;
   for (const Mesh& mesh : model.meshes)
     bytes += 512 + mesh.name.size() + 32 * std::uint64_t{mesh.positions.size()} +
-             4 * std::uint64_t{mesh.indices.size()} + 16 * std::uint64_t{mesh.parts.size()};
+             4 * std::uint64_t{mesh.indices.size()} + 16 * std::uint64_t{mesh.parts.size()} + mesh.layer_chain.size();
   for (const Picture& picture : model.textures)  // 4 bytes a texel; all levels are at most twice the first
     bytes += 512 + picture.name.size() + 8 * std::uint64_t{picture.texels.size()};
   if (bytes > format::kMaxFileBytes)

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "firmware/layers/layer_format.h"
 #include "sim/common/error.h"
 #include "sim/pack/method_settings.h"
 #include "sim/pack/names.h"
@@ -33,6 +34,7 @@ std::string spelled(const TagValue& v) {
   if (v.text) return fmt::format("\"{}\"", *v.text);
   if (v.number) return fmt::format("{}", *v.number);
   if (v.truth) return *v.truth ? "true" : "false";
+  if (v.structure) return *v.structure;
   return "something else";
 }
 
@@ -64,6 +66,46 @@ std::string structure_of(const TagValue& v) {
   if (v.structure) return *v.structure;
   const bool looks_so = v.text && !v.text->empty() && (v.text->front() == '{' || v.text->front() == '[');
   return looks_so ? *v.text : "null";
+}
+
+/// The entries of "100, 60" or "[100, 60]".
+std::vector<std::string_view> entries_of(std::string_view list) {
+  if (list.size() >= 2 && list.front() == '[' && list.back() == ']') list = list.substr(1, list.size() - 2);
+  std::vector<std::string_view> entries;
+  for (bool more = true; more;) {
+    const std::size_t comma = list.find(',');
+    std::string_view entry = list.substr(0, comma);
+    entry.remove_prefix(std::min(entry.find_first_not_of(' '), entry.size()));
+    entry = entry.substr(0, entry.find_last_not_of(' ') + 1);
+    entries.push_back(entry);
+    more = comma != std::string_view::npos;
+    if (more) list.remove_prefix(comma + 1);
+  }
+  return entries;
+}
+
+/// A list of per cent, falling from 100, in millionths. Returns "" or what is wrong with it.
+std::string parse_layers(const TagValue& v, std::vector<std::uint32_t>& out) {
+  const std::optional<std::string>& list = v.structure ? v.structure : v.text;
+  const std::vector<std::string_view> entries = entries_of(list ? std::string_view(*list) : std::string_view());
+  constexpr std::string_view kLike = "per cent of the faces, falling from 100, like [100, 60, 36, 21.6]";
+  if (entries.size() < 2) return fmt::format("must be two layers or more in {}, not {}", kLike, spelled(v));
+  if (entries.size() > firmware::format::kMaxLayers)
+    return fmt::format("must be {} layers at most, not {}", firmware::format::kMaxLayers, entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::string share = std::string(entries[i]) + (entries[i].ends_with('%') ? "" : "%");
+    const auto millionths = parse_share(share);
+    if (!millionths)
+      return fmt::format("must be {}; layer {} is {}, no number above 0 and up to 100", kLike, i + 1,
+                         entries[i].empty() ? "nothing" : entries[i]);
+    if (i == 0 && *millionths != 1'000'000)
+      return fmt::format("must begin with 100, the whole mesh, and not with {}", entries[i]);
+    if (i > 0 && *millionths >= out.back())
+      return fmt::format("must fall from layer to layer; layer {}, {}, is not below {}", i + 1, entries[i],
+                         entries[i - 1]);
+    out.push_back(*millionths);
+  }
+  return "";
 }
 
 }  // namespace
@@ -104,6 +146,8 @@ std::string set_tag(Tags& tags, std::string_view key, const TagValue& value) {
     return parse_settings(structure_of(value), tags.settings.emplace());
   } else if (key == kRegionsKey) {
     return parse_regions(structure_of(value), tags.regions.emplace());
+  } else if (key == kLayersKey) {
+    return parse_layers(value, tags.layers.emplace());
   } else {
     return "is not a thinning property";
   }

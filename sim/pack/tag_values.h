@@ -14,9 +14,9 @@ namespace usuzumi::sim {
 
 inline constexpr std::string_view kLevelKey = "thinning_level", kQuotaKey = "face_quota",
                                   kAreaKey = "area_threshold_px", kTelltaleKey = "telltale", kMethodKey = "method",
-                                  kSettingsKey = "method_settings", kRegionsKey = "regions";
-inline constexpr std::array<std::string_view, 7> kTagKeys{kLevelKey,  kQuotaKey,    kAreaKey,   kTelltaleKey,
-                                                          kMethodKey, kSettingsKey, kRegionsKey};
+                                  kSettingsKey = "method_settings", kRegionsKey = "regions", kLayersKey = "layers";
+inline constexpr std::array<std::string_view, 8> kTagKeys{kLevelKey,  kQuotaKey,    kAreaKey,    kTelltaleKey,
+                                                          kMethodKey, kSettingsKey, kRegionsKey, kLayersKey};
 
 /// A value as JSON or an option can give it.
 struct TagValue {

@@ -87,6 +87,7 @@ sim::Model sample() {
   mesh.indices = {0, 1, 2};
   mesh.two_sided = true;
   mesh.tags = {3u, {}, 4.0f, false};
+  mesh.tags.layers = {1'000'000, 600'000};
   model.notes = {"a note"};
   return model;
 }
