@@ -19,9 +19,9 @@ struct RomOptions {
   bool mips = true;  // all levels of each texture; the first alone where false
 };
 
-/// The container: one record per mesh, indexed, with normals, colours, texture coordinates, quotas, thresholds, methods,
-/// names and chains of layers, and the model's materials and textures. The same model gives the same bytes. Throws Error
-/// kBadInput where the format's bounds are exceeded.
+/// The container: one record per mesh, indexed, with normals, colours, texture coordinates, quotas, thresholds,
+/// methods, names and chains of layers, and the model's materials and textures. The same model gives the same bytes.
+/// Throws Error kBadInput where the format's bounds are exceeded.
 std::vector<std::byte> write_container(const Model& model, const RomOptions& options = {});
 
 /// A texture's format in ROM. One whose alpha is not full everywhere is kArgb8888 whatever the choice.
