@@ -42,8 +42,9 @@ void add_inspect_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", options->json,
                     "One JSON object instead of the table; {\"sound\": false, ...} for a damaged ROM");
   command->footer(
-      "Example:\n  usuzumi inspect car.rom --json | jq '.meshes[] | {name, level, faces}'\nExit code 3 where the ROM "
-      "is damaged.");
+      "Example:\n  usuzumi inspect car.rom --json | jq '.meshes[] | {name, level, faces}'\nBelow the table are "
+      "textures, materials, methods, and the layers of meshes by faces and bytes.\nExit code 3 where the ROM is "
+      "damaged.");
   command->callback([options, &exit_code] { report_errors(exit_code, [&] { return inspect(*options); }); });
 }
 
