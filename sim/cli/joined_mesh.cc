@@ -204,6 +204,7 @@ JoinedMesh load_joined(const fs::path& path, const JoinOptions& options) {
     const Model model = load_model(path);
     joined = join_model(model, options);
     joined.files.assign(model.part_files.begin(), model.part_files.end());
+    if (options.textures) joined.notes = model.notes;
   } else {
     throw Error(ExitCode::kBadInput,
                 fmt::format("{}: neither a ROM image nor a model; the models read here are {}, bare "

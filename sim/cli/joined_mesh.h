@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "firmware/simplify/simplify.h"
@@ -29,6 +30,7 @@ struct JoinedMesh {
   std::vector<Look> looks;                      // as many as groups
   std::vector<Picture> textures;
   std::vector<std::filesystem::path> files;  // that were read
+  std::vector<std::string> notes;            // where textures are asked for: what became of them
 };
 
 struct JoinOptions {

@@ -47,12 +47,20 @@ struct PackOptions {
   std::string board;
   std::vector<std::string> sidecars, levels, quotas, areas, telltales, methods, layers, joins;
   std::optional<std::uint32_t> default_level;
-  TexelChoice texels = TexelChoice::kAuto;
+  std::string texels = "auto";
   bool mips = true;
   std::uint32_t texture_size = firmware::format::kMaxTextureSize;
   bool bare = false;
   unsigned time_limit_s = 300;
 };
+
+/// By the words of --texture-format.
+std::map<std::string, TexelChoice> texel_choices() {
+  return {{"auto", TexelChoice::kAuto},
+          {"rgb565", TexelChoice::kRgb565},
+          {"xrgb8888", TexelChoice::kXrgb8888},
+          {"argb8888", TexelChoice::kArgb8888}};
+}
 
 std::vector<TagRule> option_rules(const PackOptions& options) {
   std::vector<TagRule> rules;
@@ -109,12 +117,6 @@ void note_what_bare_loses(Model& model) {
 
 std::vector<fs::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
-void print_notes(const Model& model) {
-  constexpr std::size_t kMost = 30;
-  for (std::size_t i = 0; i < std::min(model.notes.size(), kMost); ++i) print_note(model.notes[i]);
-  if (model.notes.size() > kMost) print_note(fmt::format("and {} more of this kind", model.notes.size() - kMost));
-}
-
 /// Counted in the ROM, not in the model: a bare mesh repeats vertices to stay one strip.
 void print_summary(const PackOptions& options, const firmware::DrawingData& data) {
   std::size_t vertices = 0, faces = 0;
@@ -164,11 +166,12 @@ int pack(const PackOptions& options) {
 
   std::optional<Progress> writing(std::in_place, "writing " + options.output);
   const std::vector<std::byte> rom =
-      options.bare ? write_bare(model) : write_container(model, {options.board, options.texels, options.mips});
+      options.bare ? write_bare(model)
+                   : write_container(model, {options.board, texel_choices().at(options.texels), options.mips});
   const firmware::DrawingData data = checked(rom);
   write_file_atomically(options.output, rom);
   writing.reset();
-  print_notes(model);
+  print_notes(model.notes);
   if (!options.board.empty() && find_board(options.board) == nullptr)
     print_note(fmt::format("--board {} is no board that usuzumi run knows; right if it is your own", options.board));
   print_summary(options, data);
@@ -224,11 +227,8 @@ void add_pack_command(CLI::App& app, int& exit_code) {
       ->add_option("--texture-format", options->texels,
                    "Texels in ROM: auto loses nothing (xrgb8888, argb8888 where alpha is used); rgb565 takes half, "
                    "dithered; textures whose alpha is used are argb8888 always")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, TexelChoice>{{"auto", TexelChoice::kAuto},
-                                                                             {"rgb565", TexelChoice::kRgb565},
-                                                                             {"xrgb8888", TexelChoice::kXrgb8888},
-                                                                             {"argb8888", TexelChoice::kArgb8888}}))
-      ->type_name("auto|rgb565|xrgb8888|argb8888");
+      ->check(CLI::IsMember(texel_choices()))
+      ->capture_default_str();
   command->add_flag("--mips,!--no-mips", options->mips,
                     "Smaller levels of each texture too, a third more ROM, against glitter (the default)");
   command

@@ -107,6 +107,7 @@ void check_outputs(const ThinOptions& options, const JoinedMesh& joined) {
   if (joined.indices.empty())
     throw Error(ExitCode::kBadInput, fmt::format("{}: the model has no faces to thin", options.input.string()));
   check_output(options.output, "-o", joined.files);
+  print_notes(joined.notes);
   if (!options.textures) return;
   if (joined.looks.empty()) print_note(fmt::format("{}: it has no textures for --textures", options.input.string()));
   std::set<std::uint32_t> textures;

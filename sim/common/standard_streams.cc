@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 namespace usuzumi::sim {
@@ -28,5 +30,11 @@ bool flush_standard_output() noexcept { return std::fflush(stdout) == 0 && std::
 
 void print_error(std::string_view line) noexcept { say_on_stderr("usuzumi", line); }
 void print_note(std::string_view line) noexcept { say_on_stderr("note", line); }
+
+void print_notes(std::span<const std::string> lines) noexcept {
+  constexpr std::size_t kMost = 30;
+  for (const std::string& line : lines.first(std::min(lines.size(), kMost))) print_note(line);
+  if (lines.size() > kMost) std::fprintf(stderr, "note: and %zu more of this kind\n", lines.size() - kMost);
+}
 
 }  // namespace usuzumi::sim

@@ -1,6 +1,8 @@
 // Standard input, output and error as they are handed to the program: closed, full, or fine.
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace usuzumi::sim {
@@ -21,5 +23,8 @@ void print_error(std::string_view line) noexcept;
 
 /// "note: LINE" on standard error: nothing is wrong, but the user should know.
 void print_note(std::string_view line) noexcept;
+
+/// The same of each line, but of so many at most that they do not hide each other.
+void print_notes(std::span<const std::string> lines) noexcept;
 
 }  // namespace usuzumi::sim

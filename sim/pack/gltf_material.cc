@@ -80,7 +80,7 @@ GltfMaterial GltfMaterials::read(int index, const std::string& what) {
   const auto older = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
   if (older != source.extensions.end()) read_older(older->second, out, use);
   read_alpha(source, out.material);
-  if (use.index >= 0) read_texture(use, out);
+  if (use.index != -1) read_texture(use, out);
   return out;
 }
 
@@ -108,7 +108,7 @@ void GltfMaterials::read_alpha(const tinygltf::Material& source, Material& out) 
 }
 
 void GltfMaterials::read_texture(const TextureUse& use, GltfMaterial& out) {
-  if (static_cast<std::size_t>(use.index) >= gltf_.textures.size())
+  if (use.index < 0 || static_cast<std::size_t>(use.index) >= gltf_.textures.size())
     refuse(fmt::format("material '{}' uses texture {}, which does not exist", out.name, use.index));
   const tinygltf::Texture& texture = gltf_.textures[static_cast<std::size_t>(use.index)];
   out.coordinates = fmt::format("TEXCOORD_{}", use.set);

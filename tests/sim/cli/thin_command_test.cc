@@ -215,6 +215,46 @@ TEST_F(ThinCommand, WritesTexturesOverNoInput) {
   EXPECT_FALSE(exists("out.obj"));
 }
 
+TEST_F(ThinCommand, TellsWhatBecameOfMissingTextures) {
+  write_textured(folder());
+  std::filesystem::remove(folder() / "red.png");
+  const Ran ran = usuzumi("thin board.obj -o out.obj --faces 25% --textures");
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_NE(ran.err.find("red.png is missing"), std::string::npos) << ran.err;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_EQ(sim::read_png(folder() / "out-1.png"), sim::Image(2, 2, 0x0000FF));
+  EXPECT_FALSE(exists("out-2.png"));
+  EXPECT_EQ(usuzumi("thin board.obj -o out.obj --faces 25%").err, "") << "nobody asked for textures";
+}
+
+TEST_F(ThinCommand, VertexDeletionKeepsTheVerticesOfEdgesOfThreeFaces) {
+  constexpr int kCells = 6;
+  {
+    std::ofstream obj(folder() / "fins.obj");
+    for (int fin = 0; fin < 3; ++fin)
+      for (int j = 0; j <= kCells; ++j)
+        for (int i = 0; i <= kCells; ++i)
+          obj << "v " << (fin == 1 ? 0 : i * (1 - fin)) << " " << (fin == 1 ? i : 0) << " " << j << "\n";
+    for (int fin = 0; fin < 3; ++fin)
+      for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i) {
+          const int v = (fin * (kCells + 1) + j) * (kCells + 1) + i + 1, up = v + kCells + 1;
+          obj << "f " << v << " " << v + 1 << " " << up + 1 << "\nf " << v << " " << up + 1 << " " << up << "\n";
+        }
+  }
+  const auto on_the_axis = [&] {
+    std::set<std::string> vertices;
+    std::istringstream lines(text("out.obj"));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("v 0 0 ")) vertices.insert(line);
+    return vertices.size();
+  };
+  const Ran ran = usuzumi("thin fins.obj -o out.obj --faces 30% --method vertex-deletion --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_LT(ran.json()["faces_out"].get<int>(), 3 * 2 * kCells * kCells / 2) << "the fins themselves are thinned";
+  EXPECT_EQ(on_the_axis(), kCells + 1u) << "three faces meet along it";
+}
+
 TEST_F(ThinCommand, EveryMethodThinsAndSaysWhichItWas) {
   write_textured(folder());
   std::set<std::string> results;
@@ -258,7 +298,7 @@ TEST_F(ThinCommand, MethodsAndSettingsThatDoNotExistAreOneLine) {
   const auto refused = [&](const std::string& options, const std::string& about) {
     expect_one_line_error(usuzumi("thin hills.obj -o out.obj --faces 5 " + options), 2, about);
   };
-  refused("--method quadric", "--method");
+  refused("--method quadric", "--method: quadric not in {qem,edge-removal,half-edge,vertex-deletion}");
   refused("--method edge-removal --setting c=1", "c is not a setting");
   refused("--method edge-removal --setting a", "wants NAME=VALUE");
   refused("--method edge-removal --setting a=-1", "0 or more");

@@ -167,6 +167,16 @@ TEST_F(Methods, RegionsOfObjGroupsAreMeshesOfThatName) {
 TEST_F(Methods, WhatIsNotKnownIsOneClearLine) {
   EXPECT_THAT(refusal({{"method", "quadric"}}),
               HasSubstr("must be one of qem, edge-removal, half-edge, vertex-deletion"));
+  EXPECT_THAT(refusal({{"method", 2}}), HasSubstr("vertex-deletion, not 2"));
+  const auto option = pack(json::object(), {"--method", "plate=QEM"});
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_THAT(option.err, HasSubstr("--method plate=QEM: the value must be one of qem, edge-removal"));
+  GltfBuilder b = plate();
+  b.document["nodes"][0]["extras"] = {{"method", "vertex deletion"}};
+  const auto extras = run_usuzumi({"pack", folder_.write("x.gltf", b.text()), "-o", folder_ / "x.rom"});
+  EXPECT_EQ(extras.exit_code, 3);
+  EXPECT_THAT(extras.err, HasSubstr("node 'Plate': method must be one of qem"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.rom"));
   const auto settings = [&](const json& s) { return refusal({{"method", "edge-removal"}, {"method_settings", s}}); };
   EXPECT_THAT(settings({{"neighbor_weight", 1}}), HasSubstr("did you mean neighbour_weight"));
   EXPECT_THAT(settings({{"a", -1}}), HasSubstr("a must be a number, 0 or more"));

@@ -159,8 +159,11 @@ TEST(GltfTextures, MissingOrBrokenImagesCostOneNoteEachAndTheTexture) {
   folder.write("cut.png", png.substr(0, png.size() / 2));
   folder.write("text.png", "not an image");
   folder.write("empty.png", "");
+  const std::string jpeg = jpeg_file(16, 16, plain(16, 16, kRed));
+  folder.write("cut.jpg", jpeg.substr(0, jpeg.size() / 2));
   for (const auto& [name, why] : {std::pair{"gone.png", "missing"}, std::pair{"cut.png", "damaged PNG"},
-                                  std::pair{"text.png", "neither PNG nor JPEG"}, std::pair{"empty.png", "empty"}}) {
+                                  std::pair{"text.png", "neither PNG nor JPEG"}, std::pair{"empty.png", "empty"},
+                                  std::pair{"cut.jpg", "damaged JPEG"}}) {
     GltfBuilder b = textured_triangle(kCorners, {{"uri", name}});
     b.document["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     b.document["scenes"][0]["nodes"].push_back(1);
@@ -251,6 +254,44 @@ TEST(TexturedRom, ReachesTheReaderWithLevelsInEveryFormat) {
   EXPECT_EQ(DrawingData::open(single)->mesh(0).material.texture.level_count, 1u);
 }
 
+TEST(PackCommand, BadTexturesCostANoteAndFilesThatContradictThemselvesAreRefused) {
+  TempFolder folder;
+  const std::string rom = folder / "m.rom";
+  const auto pack = [&](const GltfBuilder& b) {
+    std::filesystem::remove(rom);
+    const auto result = run_usuzumi({"pack", folder.write("m.gltf", b.text()), "-o", rom, "--default-level", "1"});
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(std::filesystem::exists(rom), result.exit_code == 0);
+    return result;
+  };
+  const std::string good = data_uri(png_file(1, 1, {kRed}), "image/png");
+  GltfBuilder without = textured_triangle(kCorners, {{"uri", good}});
+  without.document["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+  for (const auto& [gltf, why] : {std::pair{textured_triangle(kCorners, {{"uri", "gone.png"}}), "gone.png is missing"},
+                                  std::pair{textured_triangle({0, 0, 2e5, 0, 0, 1}, {{"uri", good}}), "hold up to"},
+                                  std::pair{without, "no texture coordinates"}}) {
+    const auto packed = pack(gltf);
+    EXPECT_EQ(packed.exit_code, 0) << why;
+    EXPECT_THAT(packed.err, AllOf(::testing::StartsWith("note: "), HasSubstr(why)));
+    const json shown = json::parse(run_usuzumi({"inspect", rom, "--json"}).out);
+    EXPECT_EQ(shown["textures"], json::array()) << why;
+    EXPECT_EQ(shown["meshes"][0]["texture_coordinates"], false) << why;
+  }
+  GltfBuilder negative = textured_triangle(kCorners, {{"uri", good}}), beyond = negative, few = negative;
+  base_texture(negative)["index"] = -2;
+  base_texture(beyond)["index"] = 1;
+  few.document["accessors"][1]["count"] = 2;
+  const GltfBuilder garbled = textured_triangle(kCorners, {{"uri", "data:image/png;base64,@"}});
+  for (const auto& [gltf, why] : {std::pair{negative, "texture -2, which does not exist"},
+                                  std::pair{beyond, "texture 1, which does not exist"},
+                                  std::pair{few, "3 positions but 2 of TEXCOORD_0"},
+                                  std::pair{garbled, "uri"}}) {
+    const auto refused = pack(gltf);
+    EXPECT_EQ(refused.exit_code, 3) << why;
+    EXPECT_THAT(refused.err, AllOf(::testing::StartsWith("usuzumi: "), HasSubstr("m.gltf"), HasSubstr(why)));
+  }
+}
+
 TEST(PackCommand, TextureOptionsDecideWhatLiesInRom) {
   TempFolder folder;
   GltfBuilder b = textured_triangle(kCorners, {{"uri", "paint.png"}});
@@ -280,7 +321,8 @@ TEST(PackCommand, TextureOptionsDecideWhatLiesInRom) {
   const auto bare = run_usuzumi({"pack", model, "-o", rom, "--bare"});
   EXPECT_EQ(bare.exit_code, 0);
   EXPECT_THAT(bare.err, HasSubstr("the textures of 1 mesh"));
-  EXPECT_EQ(run_usuzumi({"pack", model, "-o", rom, "--texture-format", "rgb888"}).exit_code, 2);
+  for (const char* word : {"rgb888", "RGB565", "3", ""})
+    EXPECT_EQ(run_usuzumi({"pack", model, "-o", rom, "--texture-format", word}).exit_code, 2) << word;
   EXPECT_EQ(run_usuzumi({"pack", model, "-o", rom, "--texture-size", "0"}).exit_code, 2);
   const auto over = run_usuzumi({"pack", model, "-o", folder / "paint.png"});
   EXPECT_EQ(over.exit_code, 2) << "the output would be the texture itself";
