@@ -166,6 +166,20 @@ std::optional<Transform> local_transform(const json& node) {
 
 /// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by
 /// identifier there.
+std::string name_of(const json& object) {
+  return object.contains("name") && object["name"].is_string() ? object["name"].get<std::string>() : std::string();
+}
+
+/// By identifier, of those that have one.
+std::map<std::string, std::string> read_names(const json& root, const char* kind) {
+  std::map<std::string, std::string> names;
+  const auto all = root.find(kind);
+  if (all == root.end() || !all->is_object()) return names;
+  for (const auto& [id, object] : all->items())
+    if (object.is_object() && !name_of(object).empty()) names[id] = name_of(object);
+  return names;
+}
+
 std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind,
                                               std::vector<std::string>& notes) {
   std::map<std::string, Gltf1Label> labels;
@@ -174,7 +188,7 @@ std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& 
   for (const auto& [id, object] : all->items()) {
     if (!object.is_object()) continue;
     Gltf1Label& label = labels[id];
-    if (object.contains("name") && object["name"].is_string()) label.name = object["name"].get<std::string>();
+    label.name = name_of(object);
     label.local = local_transform(object);
     if (!object.contains("extras") || !object["extras"].is_object()) continue;
     std::vector<std::pair<std::string, TagValue>> extras;
@@ -200,6 +214,7 @@ GltfFile open_gltf(const fs::path& path) {
   if (file.version_major == 1) {
     file.gltf1_nodes = read_labels(path, root, "nodes", file.notes);
     file.gltf1_meshes = read_labels(path, root, "meshes", file.notes);
+    file.gltf1_materials = read_names(root, "materials");
   }
   return file;
 }

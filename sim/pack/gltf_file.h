@@ -28,6 +28,7 @@ struct GltfFile {
   std::map<std::string, std::uint64_t>
       buffer_files;  // of buffers that lie in files beside: name -> bytes the buffer takes of it
   std::map<std::string, Gltf1Label> gltf1_nodes, gltf1_meshes;  // glTF 1.0 only, by identifier
+  std::map<std::string, std::string> gltf1_materials;           // the same; names
   std::vector<std::string> notes;
 };
 

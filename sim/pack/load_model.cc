@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// assimp names glTF 1.0 meshes by identifier, with "-0", "-1" … for the primitives of one; people know them by name.
+/// assimp names what is in glTF 1.0 by identifier, meshes with "-0", "-1" … for the primitives of one; people know them
+/// by name.
 void label_gltf1(const GltfFile& file, Model& model) {
   model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
   for (Mesh& mesh : model.meshes) {
@@ -37,6 +38,8 @@ void label_gltf1(const GltfFile& file, Model& model) {
       if (!found->second.name.empty()) mesh.mesh_name = found->second.name;
       mesh.tags = found->second.tags;
     }
+    const auto material = file.gltf1_materials.find(mesh.material_name);
+    if (material != file.gltf1_materials.end()) mesh.material_name = material->second;
     const auto node = file.gltf1_nodes.find(mesh.node_name);
     if (node == file.gltf1_nodes.end()) continue;
     if (!node->second.name.empty()) mesh.node_name = node->second.name;

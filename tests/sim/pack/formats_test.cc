@@ -181,7 +181,8 @@ TEST(Gltf1Import, ReadsNamesAndExtrasThatTheImporterDoesNotHandOn) {
   const std::string text = R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n0"]}},
     "nodes": {"n0": {"name": "Leaf", "meshes": ["m0"], "extras": {"thinning_level": 1}, "translation": [0, 0, 4]}},
     "meshes": {"m0": {"name": "leaf", "extras": {"thinning_level": 3, "face_quota": "50%"},
-      "primitives": [{"attributes": {"POSITION": "a0"}, "indices": "a1", "mode": 4}]}},
+      "primitives": [{"attributes": {"POSITION": "a0"}, "indices": "a1", "material": "k0", "mode": 4}]}},
+    "materials": {"k0": {"name": "paint", "values": {"diffuse": [1, 0, 0, 1]}}},
     "accessors": {"a0": {"bufferView": "v0", "byteOffset": 0, "componentType": 5126, "count": 3, 
     "type": "VEC3", "min": [0,0,0], "max": [1,1,0]},
                   "a1": {"bufferView": "v1", "byteOffset": 0, "componentType": 5123, "count": 3, "type": "SCALAR"}},
@@ -191,6 +192,7 @@ TEST(Gltf1Import, ReadsNamesAndExtrasThatTheImporterDoesNotHandOn) {
   const Mesh mesh = load_model(folder.write("a.gltf", text)).meshes.at(0);
   EXPECT_EQ(mesh.name, "leaf");
   EXPECT_EQ(mesh.node_name, "Leaf");
+  EXPECT_EQ(mesh.material_name, "paint");
   EXPECT_EQ(mesh.tags.level, 1u);
   EXPECT_TRUE(mesh.tags.quota.has_value());
   EXPECT_EQ(faces_of(mesh), std::multiset{face_corners({0, 0, 4}, {1, 0, 4}, {0, 1, 4})});
