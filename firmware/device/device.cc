@@ -28,7 +28,7 @@ Status Device::boot(const DeviceConfig& config) {
   command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_));
   if (command_words_.empty())
     return {StatusCode::kResourceExhausted, "RAM has no room for the command list; meshes", data_.mesh_max()};
-  status = thinning_.begin(data_, ram_, rom_on_bus());
+  status = thinning_.begin(data_, ram_, rom_on_bus(), config.boot_layers_millionths);
   if (status.ok()) status = engine_.probe();
   booted_ = status.ok();
   return status;

@@ -41,6 +41,8 @@ struct DeviceConfig {
   command::PixelFormat pixel_format = command::PixelFormat::kXrgb8888;
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
   std::uint32_t engine_timeout_us = 1'000'000;  // for one frame's command list
+  /// Layers to make for the meshes that have none in the drawing data (Thinning::begin()); outlives boot().
+  std::span<const std::uint32_t> boot_layers_millionths = {};
 };
 
 struct FrameRequest {

@@ -47,7 +47,7 @@ Status unreachable(const char* message, const MeshView& mesh) {
 class SceneWriter {
  public:
   SceneWriter(const Thinning& thinning, const AddressTranslation& bus, bool depth, command::Writer& list)
-      : data_(thinning.data()), copy_(thinning.copy()), bus_(bus), depth_(depth), list_(list) {}
+      : thinning_(thinning), data_(thinning.data()), copy_(thinning.copy()), bus_(bus), depth_(depth), list_(list) {}
 
   /// Those parts of the present meshes that are blended, or all others.
   Status put_meshes(bool blended);
@@ -56,11 +56,13 @@ class SceneWriter {
 
  private:
   Status put_mesh(const MeshView& mesh, bool blended);
+  Status put_layered(const MeshView& mesh, bool blended);
   Status put_group(const MeshView& mesh, const format::FaceGroup& group, bool blended, std::uint32_t first,
                    std::uint32_t count);
   Status put_texture(const MeshView& mesh, const MaterialView& material);
   Status add_streams_of(const MeshView& mesh, BusAddress block, command::SetVertexStreams& streams) const;
 
+  const Thinning& thinning_;
   const DrawingData& data_;
   const RamCopy& copy_;
   const AddressTranslation& bus_;
@@ -85,6 +87,7 @@ Status SceneWriter::put_mesh(const MeshView& mesh, bool blended) {
   const CopyMesh& copy = copy_.mesh(mesh.number);
   const std::span<const std::uint32_t> words = copy_.group_words(mesh.number);
   const bool indexed = copy.index_format != command::IndexFormat::kNone;
+  if (copy.layered) return put_layered(mesh, blended);
   if (mesh.groups.empty() || !indexed) {  // a point or a line has the material of its vertex
     const std::uint32_t group = words.empty() || words[0] >= mesh.group_count() ? 0 : words[0];
     return put_group(mesh, mesh.group(group), blended, 0, indexed ? copy.index_count : copy.vertex_count);
@@ -96,6 +99,18 @@ Status SceneWriter::put_mesh(const MeshView& mesh, bool blended) {
     const Status status = end > first ? put_group(mesh, group, blended, first, end - first) : ok_status();
     if (!status.ok()) return status;
     first = end;
+  }
+  return ok_status();
+}
+
+/// Of each group's slots the live ones, which are the first.
+Status SceneWriter::put_layered(const MeshView& mesh, bool blended) {
+  const std::span<const std::uint32_t> live = copy_.group_words(mesh.number);
+  const LayerChainView chain = thinning_.layers(mesh.number)->view();
+  for (std::uint32_t g = 0; g < mesh.group_count(); ++g) {
+    if (live[g] == 0) continue;
+    const Status status = put_group(mesh, mesh.group(g), blended, 3 * chain.group_begin(g), 3 * live[g]);
+    if (!status.ok()) return status;
   }
   return ok_status();
 }

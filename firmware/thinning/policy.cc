@@ -65,7 +65,9 @@ Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
       return {.action = Action::kCollapse,
               .placement = settings_.placement,
               .method = settings_.method_override.given ? settings_.method_override.method : mesh.method,
-              .target_faces = target_faces(mesh, faces)};
+              .target_faces = target_faces(mesh, faces),
+              .quota_given = settings_.quota.kind != format::QuotaKind::kNone ||
+                             mesh.quota_kind != format::QuotaKind::kNone};
     default:  // point and line
       if (above_area(nullptr, mesh)) return keep(Reason::kAboveArea);
       return {.action = mesh.level == Level::kPoint ? Action::kPoint : Action::kLine};

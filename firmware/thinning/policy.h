@@ -6,6 +6,7 @@
 #include <span>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/layers/layer_choice.h"
 #include "firmware/simplify/simplify.h"
 #include "firmware/thinning/screen_area.h"
 
@@ -46,6 +47,20 @@ struct MethodOverride {
   Method method = Method::kQem;
 };
 
+/// How level-3 meshes that have a chain of layers are drawn. A chain serves where it was made by the method that the
+/// mesh is to be thinned by; the others are thinned by that method, as if they had none.
+enum class LayerMode : std::uint8_t {
+  kFaces,      // with the faces of their quota, by replaying collapses; a quota beyond the last layer by the method
+  kQuota,      // in the middle layer that their quota falls on: nothing jumps while a quota changes
+  kAutomatic,  // in the layer that choose_layer() takes; their quota, where anybody has given one, is the coarsest
+};
+
+struct LayerSettings {
+  LayerMode mode = LayerMode::kFaces;
+  LayerChoiceSettings choice;  // kAutomatic
+  Attention attention;         // kAutomatic
+};
+
 struct ThinningSettings {
   bool enabled = true;      // off: every mesh is kept
   Policy delete_policy;     // level 2
@@ -53,6 +68,7 @@ struct ThinningSettings {
   Quota quota;              // replaces the authors' quotas where its kind is not kNone
   Placement placement = Placement::kOptimal;
   MethodOverride method_override;
+  LayerSettings layers;
 };
 
 enum class Action : std::uint8_t { kKeep, kDelete, kCollapse, kPoint, kLine };
@@ -75,11 +91,15 @@ struct Decision {
   Placement placement = Placement::kOptimal;  // kCollapse by Method::kQem
   Method method = Method::kQem;               // kCollapse, with the settings in the drawing data
   std::uint32_t target_faces = 0;             // kCollapse
+  bool quota_given = false;                   // kCollapse: by the settings or the author, not the default
+  bool layered = false;                       // kCollapse, by the mesh's chain of layers: the copy holds all of it
+  bool vertices_move = false;                 // of layered
   /// Whether the RAM copy of a mesh decided so is the same; the reason does not change the copy.
   bool same_copy(const Decision& other) const {
-    return action == other.action &&
-           (action != Action::kCollapse || (target_faces == other.target_faces && placement == other.placement &&
-                                            method == other.method));
+    if (action != other.action || layered != other.layered) return false;
+    if (action != Action::kCollapse) return true;
+    if (layered) return vertices_move == other.vertices_move;
+    return target_faces == other.target_faces && placement == other.placement && method == other.method;
   }
 };
 

@@ -42,6 +42,13 @@ bool ends_rise_to(std::span<const std::uint32_t> ends, std::uint32_t end) {
   return ends.empty() || before == end;
 }
 
+/// Whether the groups' live faces are the mesh's faces; where each group's slots begin is the chain's business.
+bool live_add_up(std::span<const std::uint32_t> live, const CopyMesh& mesh) {
+  std::uint64_t sum = 0;
+  for (const std::uint32_t faces : live) sum += faces;
+  return !live.empty() && sum == mesh.faces && sum <= mesh.index_count / 3;
+}
+
 }  // namespace
 
 Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram, bool rom_on_bus) {
@@ -59,13 +66,22 @@ Status RamCopy::begin(std::uint32_t mesh_max, Arena& ram, bool rom_on_bus) {
   return ok_status();
 }
 
-std::span<const std::uint32_t> RamCopy::group_words(std::uint32_t n) const {
+std::uint32_t RamCopy::group_words_offset(std::uint32_t n) const {
   const CopyMesh& m = slots_[n].mesh;
-  if (!m.has_group_words) return {};
+  const std::uint32_t bytes = slots_[n].bytes;
+  if (!m.has_group_words) return bytes;
   const std::uint64_t begin = m.index_offset + (std::uint64_t{m.index_count} * index_bytes(m) + 3) / 4 * 4;
-  if (begin % 4 != 0 || begin >= slots_[n].bytes) return {};
-  return {reinterpret_cast<const std::uint32_t*>(block(n) + begin),
-          static_cast<std::size_t>(slots_[n].bytes - begin) / 4};
+  return begin % 4 != 0 || begin >= bytes ? bytes : static_cast<std::uint32_t>(begin);
+}
+
+std::span<const std::uint32_t> RamCopy::group_words(std::uint32_t n) const {
+  const std::uint32_t begin = group_words_offset(n);
+  return {reinterpret_cast<const std::uint32_t*>(block(n) + begin), (slots_[n].bytes - begin) / 4};
+}
+
+std::span<std::uint32_t> RamCopy::live_faces(std::uint32_t n) {
+  const std::uint32_t begin = group_words_offset(n);
+  return {reinterpret_cast<std::uint32_t*>(block_memory(n).data() + begin), (slots_[n].bytes - begin) / 4};
 }
 
 std::uint64_t RamCopy::faces() const {
@@ -141,7 +157,7 @@ bool RamCopy::sound() const {
     if (!(size == 2 ? indices_below<std::uint16_t>(indices, m.index_count, m.vertex_count)
                     : indices_below<std::uint32_t>(indices, m.index_count, m.vertex_count)))
       return false;
-    if (!ends_rise_to(group_words(n), m.index_count / 3)) return false;
+    if (!(m.layered ? live_add_up(group_words(n), m) : ends_rise_to(group_words(n), m.index_count / 3))) return false;
   }
   return count == present_ && end <= used_;
 }

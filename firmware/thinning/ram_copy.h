@@ -2,7 +2,7 @@
 //
 // Memory is one run of blocks, one per mesh that is present, in the order in which they were built:
 //     positions (12 bytes a vertex) | normals (4) | colours (4) | texture coordinates (8)
-//     | indices (2 or 4 bytes each, padded to 4) | group words (4 each, see group_words())
+//     | indices (2 or 4 bytes each, padded to 4) | group words (4 each, see group_words() and live_faces())
 // What a mesh has not is left out; so are vertices that stay in ROM, see CopyMesh::vertices_in_rom. A block that is
 // dropped leaves a gap; compact() slides the later blocks down, so the free part is always one piece.
 #pragma once
@@ -35,12 +35,16 @@ struct CopyMesh {
   bool vertices_in_rom = false;  // vertices are those of the mesh in ROM, which the engine reads there; of its streams
                                  // the block has at most normals, where ROM has none
   bool has_group_words = false;  // behind its indices; see RamCopy::group_words()
+  bool layered = false;          // indices are the slots of a chain of layers, of each group the first are drawn; see
+                                 // RamCopy::live_faces()
   std::uint32_t faces = 0;  // that draw something: without the joins of a strip
 };
 static_assert(sizeof(CopyMesh) == 40, "every mesh of the drawing data takes as much of the RAM");
 
 class RamCopy {
  public:
+  static constexpr std::uint32_t kTableBytes = 64;  // a mesh's share of the table, at most
+
   RamCopy() = default;
   /// Takes a table of `mesh_max` entries and all that is left of `ram`. kResourceExhausted when the table does not fit.
   /// `rom_on_bus`: the engine reads the drawing data where they lie, so that vertices may be left there.
@@ -60,6 +64,12 @@ class RamCopy {
   /// Of a thinned mesh of several materials: where each group's faces end in the copy. Of a point or a line in such a
   /// mesh's place: the group that its vertex is of. Empty else; a whole mesh's groups are those of the drawing data.
   std::span<const std::uint32_t> group_words(std::uint32_t n) const;
+
+  /// Of a layered mesh, whose block is moved along its chain where it lies (layered_mesh.h).
+  std::span<std::byte> block_memory(std::uint32_t n) { return memory_.subspan(slots_[n].offset, slots_[n].bytes); }
+  /// How many of each group's slots are drawn.
+  std::span<std::uint32_t> live_faces(std::uint32_t n);
+  void set_faces(std::uint32_t n, std::uint32_t faces) { slots_[n].mesh.faces = faces; }
 
   /// The free memory behind the last block, to build the next one in.
   std::span<std::byte> free_memory() const { return memory_.subspan(used_); }
@@ -86,6 +96,10 @@ class RamCopy {
     std::uint32_t next = 0;  // the mesh whose block follows in memory; mesh_max() ends the chain
     bool present = false;
   };
+  static_assert(sizeof(Slot) <= kTableBytes);
+
+  /// Where group words begin in the block; its end where there are none.
+  std::uint32_t group_words_offset(std::uint32_t n) const;
 
   std::span<std::byte> memory_;
   std::span<Slot> slots_;

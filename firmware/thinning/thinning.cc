@@ -3,6 +3,9 @@
 #include <bit>
 #include <new>
 
+#include "firmware/layers/layer_chain_builder.h"
+#include "firmware/layers/mesh_layers.h"
+
 namespace usuzumi::firmware {
 namespace {
 
@@ -13,6 +16,27 @@ constexpr std::uint32_t kMaxQuotaHalvings = 4;
 Decision narrowed(Decision decision, std::uint32_t quota_halvings) {
   decision.target_faces >>= quota_halvings;
   return decision;
+}
+
+/// Every mesh is copied whole in no more bytes than this.
+std::uint64_t whole_bytes(const MeshView& mesh) {
+  const std::uint64_t vertex = sizeof(Vec3) + sizeof(PackedNormal) + (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
+                               (mesh.textured ? sizeof(TexCoord) : 0);
+  return mesh.positions.size() * vertex + (mesh.indices.size() + 3) / 4 * 4;
+}
+
+/// Whether a mesh as decided can be drawn from its chain.
+bool chain_serves(const LayerChainView& chain, LayerMode mode, const Decision& decision) {
+  const format::LayerChainHeader& made = chain.header();
+  if (made.method != static_cast<std::uint32_t>(decision.method)) return false;
+  if (decision.method == Method::kQem && made.placement != static_cast<std::uint32_t>(decision.placement)) return false;
+  return mode != LayerMode::kFaces || decision.target_faces >= chain.faces_at(chain.step_count());
+}
+
+/// As if layer 0 had been drawn there.
+LayerMemory memory_of_whole(const Box& box, const View& view) {
+  const ScreenExtent extent = screen_extent(box, view);
+  return {true, 0, extent.centre_x, extent.centre_y};
 }
 
 unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
@@ -34,8 +58,9 @@ Thinning::Priority Thinning::priority(const MeshView& mesh) {
   return kDeletable;
 }
 
-Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus) {
-  begun_ = false;
+Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus,
+                       std::span<const std::uint32_t> boot_layers) {
+  begun_ = layers_given_up_ = false;
   quota_halvings_ = 0;
   totals_ = {};
   faces_in_ = 0;
@@ -53,25 +78,100 @@ Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus) {
     faces_in_ += faces;
     if (mesh.level == Level::kCollapse) totals_.collapse_faces += faces;
   }
-  return copy_.begin(data.mesh_max(), ram, rom_on_bus);
+  const Status status = begin_layers(ram, boot_layers);
+  return status.ok() ? copy_.begin(data.mesh_max(), ram, rom_on_bus) : status;
+}
+
+Status Thinning::begin_layers(Arena& ram, std::span<const std::uint32_t> boot_layers) {
+  if (!boot_layers.empty() && !layer_quotas_fall(boot_layers))
+    return {StatusCode::kInvalidArgument, "layers must fall from 1,000,000 millionths; their number is",
+            static_cast<std::uint32_t>(boot_layers.size())};
+  // Normals are made for each thinned copy anew where ROM has none; a chain knows none of them.
+  const auto may_have_layers = [&](const MeshView& mesh) {
+    return mesh.level == Level::kCollapse && !mesh.normals.empty() && (!mesh.layers.empty() || !boot_layers.empty());
+  };
+  std::uint32_t count = 0;
+  std::uint64_t copy_bytes = std::uint64_t{data_->mesh_max()} * RamCopy::kTableBytes;
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+    const MeshView mesh = view_of(n);
+    if (may_have_layers(mesh)) states_[n].layered_slot = count++;
+    copy_bytes += whole_bytes(mesh);
+  }
+  layered_ = ram.allocate<LayeredMesh>(count);
+  if (layered_.size() != count)
+    return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes with layers; meshes", count};
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
+    const MeshView mesh = view_of(n);
+    if (!may_have_layers(mesh)) continue;
+    LayeredMesh& layered = *new (&layered_[states_[n].layered_slot]) LayeredMesh{};
+    layered.mesh = n;
+    layered.box = box_of(mesh.positions);
+    layered.chain = mesh.layers;
+    if (layered.chain.empty()) copy_bytes += make_layers(mesh, boot_layers, copy_bytes, ram, layered);
+  }
+  return ok_status();
+}
+
+/// Makes the mesh's chain where RAM then still holds `copy_bytes` and what its block is larger than the mesh; returns
+/// that difference.
+std::uint64_t Thinning::make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas,
+                                    std::uint64_t copy_bytes, Arena& ram, LayeredMesh& layered) {
+  const std::size_t mark = ram.used();
+  const auto made = make_mesh_layers(mesh, states_[mesh.number].faces, quotas, Placement::kOptimal, ram);
+  if (!made.ok()) return 0;  // it is thinned by its method whenever asked for
+  const std::uint64_t whole = whole_bytes(mesh);
+  const std::uint64_t block = layered_bytes(mesh, LayerChainView::of_checked(*made), true, false);
+  const std::uint64_t more = block > whole ? block - whole : 0;
+  if (copy_bytes + more > ram.available()) {
+    ram.rewind(mark);
+    return 0;
+  }
+  layered.chain = *made;
+  return more;
+}
+
+LayeredMesh* Thinning::layered(std::uint32_t n) {
+  const std::uint32_t slot = states_[n].layered_slot;
+  return slot < layered_.size() && !layered_[slot].chain.empty() ? &layered_[slot] : nullptr;
+}
+
+const LayeredMesh* Thinning::layers(std::uint32_t n) const { return const_cast<Thinning*>(this)->layered(n); }
+
+float Thinning::drawn_layer(std::uint32_t n) const {
+  const LayeredMesh* layered = layers(n);
+  if (layered == nullptr || !copy_.present(n) || !copy_.mesh(n).layered) return -1;
+  return layer_of_place(layered->view(), layered->place);
 }
 
 Status Thinning::update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report) {
   report = {};
   report.cause = begun_ ? UpdateCause::kDecisions : UpdateCause::kFirst;
-  if (!decide_all(settings, view, clock)) {
-    report.cause = UpdateCause::kUnchanged;
-    return summarize(report);
+  if (decide_all(settings, view, clock)) {
+    begun_ = true;
+    build_all(clock);
+    report.meshes_moved = move_along_layers(settings.layers, view, clock);
+  } else {
+    report.meshes_moved = move_along_layers(settings.layers, view, clock);
+    report.cause = report.meshes_moved > 0 ? UpdateCause::kLayers : UpdateCause::kUnchanged;
   }
-  begun_ = true;
+  return summarize(report);
+}
+
+/// Builds what is wanted, and asks for less until everything that may not be left out has room.
+void Thinning::build_all(Clock& clock) {
   quota_halvings_ = 0;
+  layers_given_up_ = false;
   build_wanted(clock);
+  if (short_of_room() && any_layered()) {
+    layers_given_up_ = true;
+    want_collapses();
+    build_wanted(clock);
+  }
   while (dropped_any(kCollapsible) && can_halve_quotas()) {
     ++quota_halvings_;
     want_collapses();
     build_wanted(clock);
   }
-  return summarize(report);
 }
 
 /// Marks the meshes whose copy must be built; false when there are none.
@@ -80,7 +180,9 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
   bool any = false;
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     MeshState& state = states_[n];
-    const Decision decision = decider.decide(view_of(n), state.faces);
+    const MeshView mesh = view_of(n);
+    Decision decision = decider.decide(mesh, state.faces);
+    decide_layers(settings.layers.mode, n, decision);
     state.wanted = !state.known || !state.decision.same_copy(decision);
     state.decision = decision;
     state.built = false;
@@ -91,12 +193,25 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
   // Quotas that an earlier shortage halved, and meshes that it left out, get another chance.
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     MeshState& state = states_[n];
-    const bool squeezed = quota_halvings_ > 0 && state.decision.action == Action::kCollapse;
+    const bool squeezed = (quota_halvings_ > 0 && state.decision.action == Action::kCollapse) ||
+                          (layers_given_up_ && state.decision.layered);
     const bool short_of_room =
         state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned;
     if (squeezed || (state.known && short_of_room)) state.wanted = true;
   }
   return true;
+}
+
+/// Whether the mesh is drawn from its chain, and what quota it then has.
+void Thinning::decide_layers(LayerMode mode, std::uint32_t n, Decision& decision) {
+  const LayeredMesh* layered = layers(n);
+  if (decision.action != Action::kCollapse || layered == nullptr || !layered->sound) return;
+  const LayerChainView chain = layered->view();
+  if (!chain_serves(chain, mode, decision)) return;
+  decision.layered = true;
+  decision.vertices_move = mode != LayerMode::kFaces;
+  if (mode == LayerMode::kAutomatic && !decision.quota_given)
+    decision.target_faces = chain.faces_at(chain.step_count());
 }
 
 /// Builds what is wanted: what must be there first, and within a priority the meshes that need most room to work in
@@ -133,11 +248,54 @@ void Thinning::build_one(const MeshView& mesh, Clock& clock) {
   do {
     copy_.drop(mesh.number);  // what a first try left unthinned
     copy_.compact();
-    state.build = build_mesh(mesh, state.faces, decision, copy_, clock);
+    state.build = build(mesh, decision, clock);
   } while ((state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned) &&
            make_room(priority(mesh)));
   state.wanted = false;
   state.known = state.built = true;
+}
+
+BuildReport Thinning::build(const MeshView& mesh, const Decision& decision, Clock& clock) {
+  if (decision.layered && !layers_given_up_) {
+    LayeredMesh& layered = *this->layered(mesh.number);
+    BuildReport report;
+    if (copy_layered(mesh, layered, decision.vertices_move, copy_, clock, report)) return report;
+    if (!layered.sound) states_[mesh.number].decision.layered = false;
+  }
+  return build_mesh(mesh, states_[mesh.number].faces, decision, copy_, clock);
+}
+
+/// Moves every mesh that is drawn from its layers to where it is wanted; returns how many were not there.
+std::uint32_t Thinning::move_along_layers(const LayerSettings& settings, const View& view, Clock& clock) {
+  std::uint32_t moved = 0;
+  for (LayeredMesh& layered : layered_) {
+    if (layered.chain.empty()) continue;
+    const std::uint32_t n = layered.mesh;
+    const Decision& decision = states_[n].decision;
+    if (!copy_.present(n) || !copy_.mesh(n).layered) {
+      layered.memory = {};
+      // A mesh that was drawn whole sets out from its first layer.
+      if (settings.mode == LayerMode::kAutomatic && copy_.present(n) && decision.action == Action::kKeep)
+        layered.memory = memory_of_whole(layered.box, view);
+      continue;
+    }
+    const LayerChainView chain = layered.view();
+    const auto quota = static_cast<float>(decision.target_faces);
+    ChainPlace place;
+    switch (settings.mode) {
+      case LayerMode::kFaces: place = place_of_faces(chain, decision.target_faces); break;
+      case LayerMode::kQuota: place = place_of_layer(chain, layer_of_faces(chain, quota)); break;
+      case LayerMode::kAutomatic:
+        place = place_of_layer(chain, choose_layer(chain, screen_extent(layered.box, view), view, settings.attention,
+                                                   settings.choice, layer_of_faces(chain, quota), layered.memory));
+        break;
+    }
+    if (settings.mode != LayerMode::kAutomatic) layered.memory = {};
+    const bool missed = decision.target_faces < chain.faces_at(chain.step_count());
+    states_[n].build.outcome = missed ? BuildOutcome::kQuotaNotReached : BuildOutcome::kBuilt;
+    if (move_layered(view_of(n), layered, place, copy_, clock)) ++moved;
+  }
+  return moved;
 }
 
 /// Drops one mesh that counts less than `below`, the last of the least, and has it built again when its turn comes;
@@ -160,6 +318,18 @@ bool Thinning::dropped_any(Priority up_to) const {
   return false;
 }
 
+bool Thinning::short_of_room() const {
+  for (const MeshState& state : states_)
+    if (state.build.outcome == BuildOutcome::kDropped || state.build.outcome == BuildOutcome::kUnthinned) return true;
+  return false;
+}
+
+bool Thinning::any_layered() const {
+  for (const MeshState& state : states_)
+    if (state.decision.layered) return true;
+  return false;
+}
+
 /// Whether another halving would ask some mesh for fewer faces.
 bool Thinning::can_halve_quotas() const {
   if (quota_halvings_ == kMaxQuotaHalvings) return false;
@@ -169,10 +339,12 @@ bool Thinning::can_halve_quotas() const {
   return false;
 }
 
-/// Everything below the meshes that must be there is built again, with the quotas as they are now.
+/// Everything below the meshes that must be there is built again, with the quotas as they are now; so is what was to be
+/// drawn from layers that are given up.
 void Thinning::want_collapses() {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
-    if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped)
+    if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped ||
+        (layers_given_up_ && copy_.present(n) && copy_.mesh(n).layered))
       states_[n].wanted = true;
 }
 
@@ -182,6 +354,7 @@ void Thinning::count_decisions_and_builds(ThinningReport& report) const {
     ++report.actions[static_cast<std::size_t>(state.decision.action)];
     if (state.decision.action == Action::kKeep) ++report.kept_for[static_cast<std::size_t>(state.decision.reason)];
     if (copy_.present(n)) report.bytes_left_in_rom += state.build.bytes_left_in_rom;
+    if (copy_.present(n) && copy_.mesh(n).layered) ++report.meshes_layered;
     if (!state.built || !copy_.present(n)) continue;
     ++report.meshes_built;
     if (!state.build.collapsed) continue;
@@ -197,6 +370,9 @@ Status Thinning::summarize(ThinningReport& report) const {
   report.faces_in = faces_in_;
   report.faces_out = copy_.faces();
   report.quota_halvings = quota_halvings_;
+  report.layers_given_up = layers_given_up_;
+  for (const LayeredMesh& layered : layered_)
+    if (!layered.sound) ++report.chains_refused;
   report.copy_bytes = copy_.used_bytes();
   report.peak_bytes = copy_.peak_bytes();
   Status status = copy_.sound() ? ok_status() : Status{StatusCode::kDataLoss, "RAM copy is not sound", 0};

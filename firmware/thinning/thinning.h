@@ -5,6 +5,7 @@
 #include <span>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/thinning/layered_mesh.h"
 #include "firmware/thinning/mesh_builder.h"
 #include "firmware/thinning/policy.h"
 #include "firmware/thinning/ram_copy.h"
@@ -18,6 +19,7 @@ namespace usuzumi::firmware {
 enum class UpdateCause : std::uint8_t {
   kFirst,       // there was no copy yet
   kDecisions,   // settings, or a mesh's area on the screen, ask for another copy of some mesh
+  kLayers,      // meshes were moved along their layers, none was built
   kUnchanged,   // nothing asks for another copy: nothing was thinned
 };
 
@@ -35,6 +37,10 @@ struct ThinningReport {
   std::uint32_t meshes_unthinned = 0; // in the copy as they are because there was no room to thin them
   std::uint32_t meshes_dropped = 0;   // not in the copy for want of RAM
   std::uint32_t first_dropped = 0;    // the first such mesh's number, if meshes_dropped > 0
+  std::uint32_t meshes_layered = 0;   // in the copy with their chain of layers
+  std::uint32_t meshes_moved = 0;     // of these, along their chain by this update
+  std::uint32_t chains_refused = 0;   // contradict themselves, so that the mesh is thinned without
+  bool layers_given_up = false;       // meshes are thinned without their chains for want of RAM
   std::uint32_t quota_halvings = 0;   // how often every level-3 quota was halved to make the copy fit
   std::uint64_t copy_bytes = 0;
   std::uint64_t bytes_left_in_rom = 0;  // vertices of thinned meshes that are drawn from ROM, not part of the copy
@@ -48,6 +54,7 @@ struct MeshState {
   BuildReport build;
   std::uint32_t record_offset = 0;
   std::uint32_t faces = 0;  // proper ones of the mesh in ROM, counted once
+  std::uint32_t layered_slot = 0xFFFFFFFF;  // in the table of layered meshes; of a mesh without layers beyond it
   bool wanted = false;  // scratch of an update: to be built
   bool built = false;   // by the last update
   bool known = false;   // decision and build are those of the copy
@@ -59,17 +66,28 @@ class Thinning {
   /// Takes tables and the copy's memory from `ram`, all of it that is left. `data` must outlive this.
   /// `rom_on_bus`: the 3D engine reads `data` where they lie. Meshes that their method thins without new vertices are
   /// then drawn with the vertices in ROM wherever that takes less RAM.
-  Status begin(const DrawingData& data, Arena& ram, bool rom_on_bus = false);
+  /// `boot_layers`: quotas of layers (layer_quotas_fall()) to make for those level-3 meshes that ROM has none for, in
+  /// their order, as long as what is left of RAM holds every mesh whole, layered ones with their chain's block. Takes
+  /// as long as thinning them to the last quota. kInvalidArgument: the quotas do not fall.
+  Status begin(const DrawingData& data, Arena& ram, bool rom_on_bus = false,
+               std::span<const std::uint32_t> boot_layers = {});
 
   /// Decides every mesh anew and rebuilds those whose copy would differ. On return the copy is complete and sound.
-  /// When memory runs short, level-2 meshes that are to be drawn are left out first: their authors allow their loss,
-  /// but nobody fewer faces than a quota. Then the quotas of level 3 are halved, up to four times; then level-3 meshes
+  /// Meshes with layers are then moved along them: no mesh is built for that.
+  /// When memory runs short, meshes are first thinned without their layers, as their blocks are larger than a thinned
+  /// copy. Then level-2 meshes that are to be drawn are left out: their authors allow their loss, but nobody fewer
+  /// faces than a quota. Then the quotas of level 3 are halved, up to four times; then level-3 meshes
   /// are left out, then points and lines. kResourceExhausted, with the mesh's number: a level-1 mesh, a mesh without a
   /// level or a telltale found no room; the copy then holds what fitted, and must not be taken for the picture.
   Status update(const ThinningSettings& settings, const View& view, Clock& clock, ThinningReport& report);
 
   const RamCopy& copy() const { return copy_; }
   const MeshState& state(std::uint32_t n) const { return states_[n]; }
+  /// The chain of layers that mesh n has, in ROM or made at boot; null where it has none.
+  const LayeredMesh* layers(std::uint32_t n) const;
+  /// The layer that mesh n is drawn in, between two where it is a fraction (LayeredMesh::place); negative where it is
+  /// not drawn from its layers.
+  float drawn_layer(std::uint32_t n) const;
   const DrawingData& data() const { return *data_; }
 
  private:
@@ -78,6 +96,16 @@ class Thinning {
   static Priority priority(const MeshView& mesh);
 
   MeshView view_of(std::uint32_t n) const { return data_->mesh_at(n, states_[n].record_offset); }
+  Status begin_layers(Arena& ram, std::span<const std::uint32_t> boot_layers);
+  std::uint64_t make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t copy_bytes,
+                            Arena& ram, LayeredMesh& layered);
+  LayeredMesh* layered(std::uint32_t n);
+  void decide_layers(LayerMode mode, std::uint32_t n, Decision& decision);
+  std::uint32_t move_along_layers(const LayerSettings& settings, const View& view, Clock& clock);
+  void build_all(Clock& clock);
+  BuildReport build(const MeshView& mesh, const Decision& decision, Clock& clock);
+  bool short_of_room() const;
+  bool any_layered() const;
   bool decide_all(const ThinningSettings& settings, const View& view, Clock& clock);
   void build_wanted(Clock& clock);
   void build_one(const MeshView& mesh, Clock& clock);
@@ -91,9 +119,11 @@ class Thinning {
   const DrawingData* data_ = nullptr;
   RamCopy copy_;
   std::span<MeshState> states_;
+  std::span<LayeredMesh> layered_;  // rising by mesh
   LevelTotals totals_;
   std::uint64_t faces_in_ = 0;
   std::uint32_t quota_halvings_ = 0;
+  bool layers_given_up_ = false;
   bool begun_ = false;
 };
 

@@ -29,6 +29,9 @@ inline constexpr std::array<CpuCost, static_cast<std::size_t>(CpuWork::kCount)> 
                                          // 4 misses; the comparison with the horizon with it
     {CpuWork::kQueueOperation, 90},      // its share of sorting a batch, or about four levels of a heap, one miss each
     {CpuWork::kEdgeCollapsed, 500},      // flip and link test around two one-rings of six faces, then relinked
+    {CpuWork::kCornerReplayed, 40},      // 12 bytes in order out of flash, one index written at random
+    {CpuWork::kVertexMoved, 320},        // two places, two normals from flash at random; mixed, made unit length,
+                                         // written at random
     {CpuWork::kCommandWritten, 2},
 }};
 

@@ -17,13 +17,14 @@ inline firmware::View flat_view() { return {Mat4{}, 100, 100}; }
 
 class ThinningBench {
  public:
-  explicit ThinningBench(RomImage rom, std::size_t ram_bytes = 1 << 20, bool rom_on_bus = false)
+  explicit ThinningBench(RomImage rom, std::size_t ram_bytes = 1 << 20, bool rom_on_bus = false,
+                         std::span<const std::uint32_t> boot_layers = {})
       : rom_(std::move(rom)), ram_(ram_bytes) {
     const auto data = firmware::DrawingData::open(rom_.bytes());
     EXPECT_TRUE(data.ok()) << data.status().message;
     data_ = *data;
     arena_ = Arena(ram_);
-    begin_status = thinning.begin(data_, arena_, rom_on_bus);
+    begin_status = thinning.begin(data_, arena_, rom_on_bus, boot_layers);
   }
 
   Status update(const firmware::ThinningSettings& settings = {}, const firmware::View& view = flat_view()) {

@@ -17,6 +17,8 @@ enum class CpuWork : std::uint8_t {
   kEdgeCosted,        // one edge's quadric error and placement evaluated
   kQueueOperation,    // one edge taken from the cost order, or put back into it
   kEdgeCollapsed,     // one edge collapse carried out
+  kCornerReplayed,    // one corner of a face named another vertex by a replay of collapses
+  kVertexMoved,       // one vertex put between two layers
   kCommandWritten,    // one command-list word
   kCount
 };

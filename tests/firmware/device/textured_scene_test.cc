@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "firmware/device/scene_commands.h"
+#include "tests/support/test_layers.h"
 #include "tests/support/thinning_bench.h"
 
 namespace usuzumi {
@@ -198,6 +199,31 @@ TEST(TexturedScene, EveryGroupIsDrawnWithItsMaterialAndColour) {
     EXPECT_EQ(list.draws[1].streams.constant_colour, Rgba8{0xFF00FF00});
     EXPECT_EQ(list.draws[0].draw.index_address, list.draws[1].draw.index_address);
   }
+}
+
+TEST(TexturedScene, OfALayeredMeshTheFirstSlotsOfEveryGroupAreDrawn) {
+  constexpr std::uint32_t kQuotas[] = {1'000'000, 500'000};
+  TestMesh mesh = two_hills(6, 3, 0, 4);
+  mesh.normals.assign(mesh.positions.size(), pack_normal({0, 0, 1}));
+  ThinningBench bench(container_rom({testing::with_layers(mesh, kQuotas, five_materials())}, five_materials()));
+  const Walked list = drawn(bench);
+  ASSERT_TRUE(bench.copy().mesh(0).layered);
+  ASSERT_EQ(list.draws.size(), 2u);
+  EXPECT_LE(bench.copy().mesh(0).faces, 72u);
+  EXPECT_EQ(list.draws[0].draw.first, 0u);
+  EXPECT_EQ(list.draws[1].draw.first, 3u * 72) << "the second group's slots lie where its faces would";
+  const auto indices = bench.indices(0);
+  const auto vertices = bench.positions(0);
+  std::uint32_t faces = 0;
+  for (const std::size_t g : {0u, 1u}) {
+    const command::Draw& draw = list.draws[g].draw;
+    faces += draw.count / 3;
+    for (std::uint32_t i = draw.first; i < draw.first + draw.count; ++i)
+      EXPECT_EQ(vertices[indices[i]].x > 1.5f, g == 1) << "the second hills stand 3 to the right";
+  }
+  EXPECT_EQ(faces, bench.copy().mesh(0).faces);
+  EXPECT_EQ(list.draws[1].texture.format, command::TextureFormat::kArgb8888);
+  EXPECT_EQ(list.draws[1].streams.constant_colour, Rgba8{0xFF00FF00});
 }
 
 TEST(TexturedScene, AGroupThatThinningHasEmptiedIsNotDrawn) {

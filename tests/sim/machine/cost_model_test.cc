@@ -17,6 +17,8 @@ TEST(CpuCostModel, HasTheNumbersOfThePage) {
   EXPECT_EQ(cpu_clocks(CpuWork::kEdgeCosted), 200u);
   EXPECT_EQ(cpu_clocks(CpuWork::kQueueOperation), 90u);
   EXPECT_EQ(cpu_clocks(CpuWork::kEdgeCollapsed), 500u);
+  EXPECT_EQ(cpu_clocks(CpuWork::kCornerReplayed), 40u);
+  EXPECT_EQ(cpu_clocks(CpuWork::kVertexMoved), 320u);
   EXPECT_EQ(cpu_clocks(CpuWork::kCommandWritten), 2u);
   EXPECT_EQ(kRegisterAccessClocks, 40u);
 }

@@ -1,0 +1,315 @@
+// Meshes drawn from their chains of layers: what is in the copy, what an update costs, and what becomes of them when
+// memory or the chain itself is bad.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "firmware/layers/middle_layer.h"
+#include "firmware/thinning/thinning.h"
+#include "tests/support/test_layers.h"
+#include "tests/support/thinning_bench.h"
+
+namespace usuzumi {
+namespace {
+
+using firmware::BuildOutcome;
+using firmware::LayerChainView;
+using firmware::LayerMode;
+using firmware::ThinningSettings;
+using firmware::UpdateCause;
+using testing::container_rom;
+using testing::flat_view;
+using testing::hills;
+using testing::TestMesh;
+using testing::ThinningBench;
+using Method = firmware::format::Method;
+using QuotaKind = firmware::format::QuotaKind;
+
+constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
+constexpr std::uint32_t kAll = 800;  // faces of hills(20)
+
+TestMesh smooth_hills(Method method) {
+  TestMesh mesh = hills(20, 3);
+  mesh.method = method;
+  for (const Vec3& p : mesh.positions)
+    mesh.normals.push_back(pack_normal(normalized(Vec3{-0.4f * p.x, 0.3f * p.y * p.y, 1})));
+  return mesh;
+}
+
+TestMesh layered_hills(Method method) { return testing::with_layers(smooth_hills(method), kQuotas); }
+
+ThinningSettings with_faces(std::uint32_t faces, LayerMode mode = LayerMode::kFaces) {
+  ThinningSettings settings;
+  settings.quota = {QuotaKind::kFaces, faces};
+  settings.layers.mode = mode;
+  return settings;
+}
+
+using Face = std::array<std::array<float, 3>, 3>;
+
+/// The faces that are drawn, by place: the live slots of a layered block, all of any other.
+std::multiset<Face> drawn_faces(const ThinningBench& bench, std::uint32_t n) {
+  const auto positions = bench.positions(n);
+  const auto indices = bench.indices(n);
+  const std::size_t live = bench.copy().mesh(n).layered ? bench.copy().group_words(n)[0] : indices.size() / 3;
+  std::multiset<Face> faces;
+  for (std::size_t f = 0; f < live; ++f) {
+    Face face;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = positions[indices[3 * f + k]];
+      face[k] = {p.x, p.y, p.z};
+    }
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    faces.insert(face);
+  }
+  return faces;
+}
+
+std::vector<std::byte> block_of(const ThinningBench& bench, std::uint32_t n) {
+  return {bench.copy().block(n), bench.copy().block(n) + bench.copy().block_bytes(n)};
+}
+
+class LayersOfMethod : public ::testing::TestWithParam<Method> {};
+
+TEST_P(LayersOfMethod, AQuotaIsReachedWithTheFacesThatTheMethodMakes) {
+  ThinningBench layered(container_rom({layered_hills(GetParam())}));
+  ThinningBench searched(container_rom({smooth_hills(GetParam())}));
+  const std::uint32_t quota = 216 * kAll / 1000;
+  ASSERT_TRUE(layered.update(with_faces(quota)).ok());
+  ASSERT_TRUE(searched.update(with_faces(quota)).ok());
+  ASSERT_TRUE(layered.copy().mesh(0).layered);
+  EXPECT_EQ(layered.report.meshes_layered, 1u);
+  EXPECT_FALSE(searched.copy().mesh(0).layered);
+  EXPECT_EQ(layered.copy().mesh(0).faces, searched.copy().mesh(0).faces);
+  EXPECT_EQ(drawn_faces(layered, 0), drawn_faces(searched, 0));
+}
+
+TEST_P(LayersOfMethod, AnotherQuotaReplaysWhatLiesBetweenAndBuildsNothing) {
+  ThinningBench bench(container_rom({layered_hills(GetParam())}));
+  ASSERT_TRUE(bench.update(with_faces(600)).ok());
+  const auto before = block_of(bench, 0);
+  const LayerChainView chain = bench.thinning.layers(0)->view();
+  std::uint64_t between = 0;
+  for (std::uint32_t s = 0; s < chain.step_count(); ++s)
+    if (chain.faces_at(s) <= 600 && chain.faces_at(s) > 400) between += chain.changes(s).size();
+  ASSERT_GT(between, 0u);
+  for (const std::uint32_t faces : {400u, 600u}) {
+    const auto replayed = bench.clock.charged(CpuWork::kCornerReplayed);
+    const auto costed = bench.clock.charged(CpuWork::kEdgeCosted);
+    ASSERT_TRUE(bench.update(with_faces(faces)).ok());
+    EXPECT_EQ(bench.report.cause, UpdateCause::kLayers);
+    EXPECT_EQ(bench.report.meshes_built, 0u);
+    EXPECT_EQ(bench.report.meshes_moved, 1u);
+    EXPECT_LE(bench.report.faces_out, faces);
+    EXPECT_GE(bench.report.faces_out, faces - 7) << "one deletion takes six faces at most in a plane";
+    EXPECT_EQ(bench.clock.charged(CpuWork::kCornerReplayed) - replayed, between);
+    EXPECT_EQ(bench.clock.charged(CpuWork::kEdgeCosted), costed) << "no search";
+  }
+  EXPECT_EQ(block_of(bench, 0), before);
+  ASSERT_TRUE(bench.update(with_faces(600)).ok());
+  EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged);
+  EXPECT_EQ(bench.report.meshes_moved, 0u);
+}
+
+TEST_P(LayersOfMethod, BetweenTwoLayersVerticesStandBetweenThem) {
+  ThinningBench bench(container_rom({layered_hills(GetParam())}));
+  ASSERT_TRUE(bench.update(with_faces(kAll, LayerMode::kQuota)).ok());
+  const auto store = bench.positions(0);
+  const LayerChainView chain = bench.thinning.layers(0)->view();
+  const std::uint32_t above = chain.layer(1).faces, below = chain.layer(2).faces;
+  const std::uint32_t between = (above + 2 * below) / 3;
+  const float w = static_cast<float>(above - between) / static_cast<float>(above - below);
+  ASSERT_TRUE(bench.update(with_faces(between, LayerMode::kQuota)).ok());
+  EXPECT_FLOAT_EQ(bench.thinning.drawn_layer(0), 1 + w);
+  EXPECT_EQ(bench.report.faces_out, above);
+  auto expected = store;
+  ASSERT_FALSE(chain.pairs(1).empty());
+  for (const auto& pair : chain.pairs(1)) expected[pair.from] = store[pair.from] * (1 - w) + store[pair.to] * w;
+  const auto drawn = bench.positions(0);
+  for (std::size_t v = 0; v < drawn.size(); ++v)
+    EXPECT_LT(dot(drawn[v] - expected[v], drawn[v] - expected[v]), 1e-12f) << v;
+  // In the next layer all of them stand where they were put, and others set out.
+  ASSERT_TRUE(bench.update(with_faces(below, LayerMode::kQuota)).ok());
+  EXPECT_EQ(bench.positions(0), store);
+  EXPECT_EQ(bench.report.faces_out, below);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LayersOfMethod,
+                         ::testing::Values(Method::kQem, Method::kEdgeRemoval, Method::kHalfEdge,
+                                           Method::kVertexDeletion));
+
+TEST(Layers, AQuotaBeyondTheLastLayerIsLeftToTheMethod) {
+  ThinningBench bench(container_rom({layered_hills(Method::kQem)}));
+  ASSERT_TRUE(bench.update(with_faces(100)).ok());
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+  EXPECT_LE(bench.report.faces_out, 100u);
+  EXPECT_LT(bench.thinning.drawn_layer(0), 0);
+  // Where nothing may jump the last layer is the coarsest, and the quota is missed.
+  ASSERT_TRUE(bench.update(with_faces(100, LayerMode::kQuota)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 3);
+  EXPECT_EQ(bench.report.quotas_missed, 1u);
+}
+
+TEST(Layers, AnotherMethodThanTheChainsThinsWithoutIt) {
+  ThinningBench bench(container_rom({layered_hills(Method::kQem)}));
+  ThinningSettings settings = with_faces(400);
+  settings.method_override = {true, firmware::Method::kHalfEdge};
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+  settings = with_faces(400);
+  settings.placement = firmware::Placement::kMidpoint;
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+  ASSERT_TRUE(bench.update(with_faces(400)).ok());
+  EXPECT_TRUE(bench.copy().mesh(0).layered);
+}
+
+TEST(Layers, ThinningOffDrawsTheWholeMesh) {
+  ThinningBench bench(container_rom({layered_hills(Method::kQem)}));
+  ThinningSettings settings = with_faces(400, LayerMode::kAutomatic);
+  settings.enabled = false;
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_EQ(bench.report.faces_out, kAll);
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+}
+
+/// The picture at a distance: a square of 2 / scale.
+firmware::View scaled_view(float scale) {
+  firmware::View view = flat_view();
+  view.model_to_clip.m[0] = view.model_to_clip.m[5] = scale;
+  return view;
+}
+
+TEST(Layers, TheAutomaticLayerFollowsSizeDownToTheQuota) {
+  ThinningBench bench(container_rom({layered_hills(Method::kQem)}));
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kAutomatic;
+  // 100 pixels wide: a diagonal of 141 pixels is worth 20,000 / 16 faces, more than there are.
+  ASSERT_TRUE(bench.update(settings, scaled_view(1)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 0);
+  // A fourteenth of that is worth less than the last layer: nobody gave a quota, so that is the end; an eighth of a
+  // layer a frame.
+  ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 0.125f);
+  for (int i = 0; i < 30; ++i) ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 3);
+  EXPECT_EQ(bench.report.faces_out, bench.thinning.layers(0)->view().layer(3).faces);
+  // With a quota of 60 % that is the coarsest.
+  settings.quota = {QuotaKind::kMillionths, 600'000};
+  ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 1);
+  EXPECT_EQ(bench.report.meshes_built, 0u);
+}
+
+TEST(Layers, AMeshDrawnWholeSetsOutFromItsFirstLayer) {
+  TestMesh mesh = layered_hills(Method::kQem);
+  mesh.area_threshold_px = 2000;
+  ThinningBench bench(container_rom({mesh}));
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kAutomatic;
+  ASSERT_TRUE(bench.update(settings, scaled_view(1)).ok());
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+  ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 0.125f);
+}
+
+TEST(Layers, VerticesStayInRomWhereTheMethodMakesNoneAndNoneMoves) {
+  ThinningBench bench(container_rom({layered_hills(Method::kHalfEdge)}), 1 << 20, true);
+  ASSERT_TRUE(bench.update(with_faces(400)).ok());
+  EXPECT_TRUE(bench.copy().mesh(0).vertices_in_rom);
+  EXPECT_EQ(bench.copy().block_bytes(0), 3 * kAll * 2 + 4u);
+  EXPECT_EQ(bench.report.bytes_left_in_rom, 441u * 16);
+  ASSERT_TRUE(bench.update(with_faces(400, LayerMode::kQuota)).ok());
+  EXPECT_FALSE(bench.copy().mesh(0).vertices_in_rom);
+  EXPECT_EQ(bench.copy().block_bytes(0), 441 * 16 + 3 * kAll * 2 + 4u);
+}
+
+TEST(Layers, ShortOfRamTheMeshIsThinnedWithoutThem) {
+  // Enough to thin the hills in, too little for their block beside another mesh that must be there.
+  TestMesh kept = hills(70, 1);
+  kept.normals.assign(kept.positions.size(), pack_normal({0, 0, 1}));
+  const TestMesh layered = layered_hills(Method::kQem);
+  ThinningBench roomy(container_rom({kept, layered}), 4 << 20);
+  ASSERT_TRUE(roomy.update(with_faces(400)).ok());
+  ASSERT_TRUE(roomy.copy().mesh(1).layered);
+  const std::size_t both = roomy.copy().used_bytes();
+  std::size_t tables = 0;
+  bool given_up = false;
+  for (std::size_t ram = both; ram < both + 4096 && !given_up; ram += 64) {
+    ThinningBench bench(container_rom({kept, layered}), ram);
+    if (!bench.begin_status.ok() || !bench.update(with_faces(400)).ok()) continue;
+    given_up = bench.report.layers_given_up;
+    if (!given_up) break;
+    tables = ram;
+    EXPECT_FALSE(bench.copy().mesh(1).layered);
+    EXPECT_TRUE(bench.copy().present(1));
+    EXPECT_TRUE(bench.copy().sound());
+    // Nothing changed: no second try.
+    ASSERT_TRUE(bench.update(with_faces(400)).ok());
+    EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged);
+  }
+  EXPECT_TRUE(given_up) << tables;
+}
+
+TEST(Layers, AChainThatContradictsItselfIsNotUsed) {
+  TestMesh mesh = layered_hills(Method::kQem);
+  const auto good = LayerChainView::of_checked(std::as_bytes(std::span(mesh.layers)));
+  const auto change = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(good.changes(5).data()) -
+                                               reinterpret_cast<const std::byte*>(mesh.layers.data()));
+  mesh.layers[change / 4 + 1] ^= 1;  // it names another vertex than the corner has
+  ThinningBench bench(container_rom({mesh}));
+  ASSERT_TRUE(bench.update(with_faces(400)).ok());
+  EXPECT_EQ(bench.report.chains_refused, 1u);
+  EXPECT_FALSE(bench.copy().mesh(0).layered);
+  EXPECT_LE(bench.report.faces_out, 400u);
+  EXPECT_TRUE(bench.copy().sound());
+  ASSERT_TRUE(bench.update(with_faces(400)).ok());
+  EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged);
+}
+
+TEST(BootLayers, AreMadeForMeshesThatHaveNone) {
+  ThinningBench bench(container_rom({smooth_hills(Method::kHalfEdge), hills(4, 1), layered_hills(Method::kQem)}),
+                      4 << 20, false, kQuotas);
+  ASSERT_TRUE(bench.begin_status.ok());
+  ASSERT_NE(bench.thinning.layers(0), nullptr);
+  EXPECT_EQ(bench.thinning.layers(1), nullptr);
+  EXPECT_EQ(bench.thinning.layers(0)->view().layer(1).faces, 480u);
+  ThinningSettings settings;
+  settings.quota = {QuotaKind::kMillionths, 360'000};
+  ASSERT_TRUE(bench.update(settings).ok());
+  EXPECT_EQ(bench.report.meshes_layered, 2u);
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 2);
+}
+
+TEST(BootLayers, LeaveRoomForEveryMesh) {
+  std::vector<TestMesh> meshes(6, smooth_hills(Method::kQem));
+  ThinningBench bare(container_rom(meshes), 4 << 20);
+  ThinningSettings whole;
+  whole.enabled = false;
+  ASSERT_TRUE(bare.update(whole).ok());
+  bool some = false;
+  for (std::size_t ram = 180'000; ram < 700'000; ram += 20'000) {
+    ThinningBench bench(container_rom(meshes), ram, false, kQuotas);
+    if (!bench.begin_status.ok() || !bare.begin_status.ok()) continue;
+    ThinningBench without(container_rom(meshes), ram);
+    if (!without.update(whole).ok()) continue;
+    ASSERT_TRUE(bench.update(whole).ok()) << ram;
+    ASSERT_TRUE(bench.update(with_faces(2400)).ok()) << ram;
+    EXPECT_EQ(bench.report.meshes_dropped, 0u) << ram;
+    EXPECT_FALSE(bench.report.layers_given_up) << ram;
+    some = some || (bench.report.meshes_layered > 0 && bench.report.meshes_layered < 6);
+  }
+  EXPECT_TRUE(some) << "no size had room for some of the chains";
+}
+
+TEST(BootLayers, QuotasThatDoNotFallAreRefused) {
+  constexpr std::uint32_t kRising[] = {1'000'000, 360'000, 600'000};
+  ThinningBench bench(container_rom({smooth_hills(Method::kQem)}), 1 << 20, false, kRising);
+  EXPECT_EQ(bench.begin_status.code, StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace usuzumi
