@@ -69,6 +69,7 @@ Result<std::uint32_t> make_chain(const MeshView& mesh, std::uint32_t faces, std:
   options.method = mesh.method;
   options.edge_removal = mesh.edge_removal();
   options.vertex_deletion = mesh.vertex_deletion();
+  options.for_layers = true;
   options.log = &log;
   const auto outcome = simplify(work, options, arena);
   if (!outcome.ok()) return outcome.status();

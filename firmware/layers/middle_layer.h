@@ -2,9 +2,8 @@
 //
 // A middle layer has the faces of layer n. Each vertex of layer n that layer n + 1 has not lies on the straight line to
 // its correspondent there; texture coordinates, colours and normals go with it. At weight 0 the picture is layer n's;
-// at weight 1 it is layer n + 1's, as the faces that are not in it have shrunk to nothing. (Where vertex deletion fills
-// a hole with triangles that no fan gives, faces that stay are turned, and the picture at 1 is layer n + 1's but for
-// the folds in that hole.)
+// at weight 1 it is layer n + 1's, as the faces that are not in it have shrunk to nothing (which is why vertex deletion
+// for layers fills by fans alone: SimplifyOptions::for_layers).
 #pragma once
 
 #include <cstdint>

@@ -23,6 +23,13 @@ FaceQuota quota_option(const std::string& option, const std::string& value) {
   return *tags.quota;
 }
 
+std::vector<std::uint32_t> layers_option(const std::string& option, const std::string& value) {
+  Tags tags;
+  const std::string fault = set_tag(tags, kLayersKey, {.number = {}, .truth = {}, .text = value});
+  if (!fault.empty()) throw Error(ExitCode::kUsage, fmt::format("{} {}: {}", option, value, fault));
+  return *tags.layers;
+}
+
 firmware::Placement placement_option(const std::string& value) {
   return value == "midpoint" ? firmware::Placement::kMidpoint : firmware::Placement::kOptimal;
 }

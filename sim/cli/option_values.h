@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "firmware/simplify/simplify.h"
 #include "sim/pack/model.h"
@@ -17,6 +18,9 @@ namespace usuzumi::sim {
 
 /// "1200" (faces) or "25%" of `option`. Throws Error kUsage.
 FaceQuota quota_option(const std::string& option, const std::string& value);
+
+/// "100,60,36", per cent of a mesh's faces, as millionths. Throws Error kUsage.
+std::vector<std::uint32_t> layers_option(const std::string& option, const std::string& value);
 
 /// "optimal" or "midpoint"; the parser has checked it.
 firmware::Placement placement_option(const std::string& value);

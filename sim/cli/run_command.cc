@@ -48,6 +48,9 @@ struct RunOptions {
   std::string thin = "on";
   std::string quota;
   std::string placement;
+  std::string lod = "off";
+  std::string attention;
+  std::string boot_layers;
   std::vector<std::string> policies;
   std::string engine = "soft";
   std::uint32_t threads = 1;
@@ -71,6 +74,8 @@ DeskConfig desk_config(const RunOptions& options) {
         options.format == "rgb565" ? command::PixelFormat::kRgb565 : command::PixelFormat::kXrgb8888;
   config.engine = options.engine == "osmesa" ? EngineKind::kOsmesa : EngineKind::kSoft;
   config.threads = options.threads;
+  if (!options.boot_layers.empty())
+    config.boot_layers_millionths = layers_option("--boot-layers", options.boot_layers);
   if (!options.gpio.empty()) config.pins = parse_frame_script("--gpio", options.gpio, kPinNames);
   if (!options.faults.empty()) config.fault_script = parse_frame_script("--fault", options.faults, kFaultNames);
   return config;
@@ -108,7 +113,25 @@ Rgba8 background_option(const std::string& value) {
   return rgba8(rgb >> 16, rgb >> 8 & 0xFF, rgb & 0xFF);
 }
 
-firmware::ThinningSettings thinning_settings(const RunOptions& options, const PolicyOptions& policies) {
+/// "960,360", a place on the picture.
+firmware::Attention attention_option(const std::string& value, const Desk& desk) {
+  const auto comma = value.find(',');
+  if (comma != std::string::npos) {
+    const auto x = parse_whole_number(std::string_view(value).substr(0, comma), desk.width() - 1);
+    const auto y = parse_whole_number(std::string_view(value).substr(comma + 1), desk.height() - 1);
+    if (x && y) return {true, static_cast<float>(*x), static_cast<float>(*y)};
+  }
+  throw Error(ExitCode::kUsage, fmt::format("--attention {}: must be X,Y in pixels from the top left corner, below {},{}",
+                                            value, desk.width(), desk.height()));
+}
+
+firmware::LayerMode layer_mode(const std::string& lod) {
+  if (lod == "quota") return firmware::LayerMode::kQuota;
+  return lod == "auto" ? firmware::LayerMode::kAutomatic : firmware::LayerMode::kFaces;
+}
+
+firmware::ThinningSettings thinning_settings(const RunOptions& options, const PolicyOptions& policies,
+                                             const Desk& desk) {
   firmware::ThinningSettings settings;
   settings.enabled = options.thin == "on";
   settings.placement = placement_option(options.placement);
@@ -116,6 +139,8 @@ firmware::ThinningSettings thinning_settings(const RunOptions& options, const Po
     const FaceQuota quota = quota_option("--quota", options.quota);
     settings.quota = {quota.kind, quota.value};
   }
+  settings.layers.mode = layer_mode(options.lod);
+  if (!options.attention.empty()) settings.layers.attention = attention_option(options.attention, desk);
   policies.apply(settings);
   return settings;
 }
@@ -161,9 +186,13 @@ void prepare_outputs(const RunOptions& options) {
 void check_combinations(const RunOptions& options) {
   if (options.orbit && !options.camera.empty())
     throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
-  if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty() || !options.placement.empty()))
+  if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty() || !options.placement.empty() ||
+                                options.lod != "off" || !options.boot_layers.empty()))
     throw Error(ExitCode::kUsage,
-                "--thin off leaves nothing for --quota, --policy or --placement to do: drop one of them");
+                "--thin off leaves nothing for --quota, --policy, --placement, --lod or --boot-layers to do: drop one "
+                "of them");
+  if (!options.attention.empty() && options.lod != "auto")
+    throw Error(ExitCode::kUsage, "--attention is for layers that follow it: give --lod auto");
   if (options.engine == "osmesa" && options.threads != 1)
     throw Error(ExitCode::kUsage, "--threads is for the soft engine: OSMesa takes its number from LP_NUM_THREADS");
 }
@@ -202,6 +231,11 @@ void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const 
   for (const auto& [option, value] : {std::pair{"--quota", options.quota}, {"--placement", options.placement}})
     if (!any_collapse && !value.empty())
       print_note(fmt::format("{} {} has no effect: no mesh has level 3", option, value));
+  if (options.lod != "off" && desk.layered_meshes().empty())
+    print_note(fmt::format("--lod {} has no effect: no mesh has layers; give pack --layers or run --boot-layers",
+                           options.lod));
+  if (!options.boot_layers.empty() && !any_collapse)
+    print_note(fmt::format("--boot-layers {} has no effect: no mesh has level 3", options.boot_layers));
   if (options.orbit && options.frames == 1) print_note("--orbit has no effect on one frame; give --frames");
   if (path.cameras() > options.frames)
     print_note(fmt::format("{}: {} cameras for {} frame(s); give --frames {} to use them all", options.camera,
@@ -217,7 +251,7 @@ int run(const RunOptions& options) {
   Desk desk(config, rom, options.rom);
   booting.reset();
   const PolicyOptions policies(options.policies, desk.drawing_data());
-  const firmware::ThinningSettings thinning = thinning_settings(options, policies);
+  const firmware::ThinningSettings thinning = thinning_settings(options, policies, desk);
   const CameraPath path(options, desk);
   prepare_outputs(options);
   note_idle_scripts(options, config);
@@ -236,7 +270,9 @@ int run(const RunOptions& options) {
       if (!options.out.empty()) write_png(picture_path(options, i), shown.picture);
     }
   }
-  const RunSummary summary{options.rom, options.board, options.engine, desk.width(), desk.height(), desk.memory()};
+  RunSummary summary{options.rom, options.board, options.engine, desk.width(), desk.height(), desk.memory(), {}};
+  const auto meshes = named_meshes(desk.drawing_data());
+  for (const std::uint32_t n : desk.layered_meshes()) summary.layered_meshes.push_back(meshes[n].name);
   if (!options.stats.empty()) write_file_atomically(options.stats, run_report_json(summary, records));
   if (options.stats != "/dev/stdout") fmt::print("{}", run_report_text(summary, records));
   return exit_status(ExitCode::kOk);
@@ -271,6 +307,22 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
       ->check(CLI::IsMember({"optimal", "midpoint"}))
       ->default_str("optimal");
+  command
+      ->add_option("--lod", options->lod,
+                   "Meshes with layers: off, with exactly the faces of their quota; quota, between two layers as the "
+                   "quota falls, so that nothing jumps when it changes; auto, in the layer that size, place and speed "
+                   "on the screen ask for, the quota being the coarsest")
+      ->check(CLI::IsMember({"off", "quota", "auto"}))
+      ->capture_default_str();
+  command
+      ->add_option("--attention", options->attention,
+                   "Where the viewer looks, pixels from the top left corner: --lod auto then thins what is far from it more")
+      ->type_name("X,Y");
+  command
+      ->add_option("--boot-layers", options->boot_layers,
+                   "Layers that the device makes as it boots, for level-3 meshes without any in ROM; per cent of their "
+                   "faces, falling from 100")
+      ->type_name("100,60,36,…");
   command
       ->add_option("--policy", options->policies,
                    "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], "

@@ -116,6 +116,7 @@ Desk::Desk(const DeskConfig& config, std::span<const std::byte> rom, const std::
   instrument.device.height = complete.height;
   instrument.device.pixel_format = complete.board.pixel_format;
   instrument.device.depth_format = complete.board.depth_format;
+  instrument.device.boot_layers_millionths = parts_->config.boot_layers_millionths;
   parts_->pins.begin_frame(0);
   const Status status = parts_->instrument.boot(instrument);
   if (status.code == StatusCode::kUnsupported) refuse_foreign(rom_name, rom, complete.board.name);
@@ -128,6 +129,14 @@ Desk::~Desk() = default;
 
 std::uint32_t Desk::width() const { return parts_->config.width; }
 std::uint32_t Desk::height() const { return parts_->config.height; }
+
+std::vector<std::uint32_t> Desk::layered_meshes() const {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t n = 0; n < drawing_data().mesh_max(); ++n)
+    if (device().thinning().layers(n) != nullptr) numbers.push_back(n);
+  return numbers;
+}
+
 const firmware::DrawingData& Desk::drawing_data() const { return device().drawing_data(); }
 const Machine& Desk::machine() const { return parts_->machine; }
 const firmware::Device& Desk::device() const { return parts_->instrument.device(); }
@@ -191,6 +200,7 @@ Desk::Shown Desk::draw(const firmware::FrameRequest& request) {
   record.thin_ms = ms_from_ns(record.firmware.thin_ns);
   record.draw_ms = ms_from_ns(record.firmware.draw_ns);
   record.scanout_ms = static_cast<double>(p.mode.frame_ticks()) * 1e3 / static_cast<double>(kMasterHz);
+  for (const std::uint32_t n : layered_meshes()) record.layers.push_back(device().thinning().drawn_layer(n));
   record.host_ms = stopwatch.elapsed_ms();
   return {record, picture};
 }

@@ -26,6 +26,7 @@ struct DeskConfig {
   std::uint32_t width = 0, height = 0;  // 0: the board's panel
   EngineKind engine = EngineKind::kSoft;
   std::uint32_t threads = 1;            // of the host, for the engine
+  std::vector<std::uint32_t> boot_layers_millionths;  // for meshes without layers in ROM; none: none are made
   Faults faults;                        // from power-on
   std::optional<std::vector<FrameEvent>> pins;  // by kPinNames; none: ignition on, button up
   std::vector<FrameEvent> fault_script;         // by kFaultNames
@@ -49,6 +50,7 @@ struct FrameRecord {
   std::uint32_t panel_crc32 = 0;  // the same of the picture that the panel rebuilt
   double thin_ms = 0, draw_ms = 0, scanout_ms = 0;
   double host_ms = 0;             // from the frame's request to its last pixel on the panel
+  std::vector<float> layers;      // of each mesh that has layers, in their order; negative where not drawn from them
 };
 
 class Desk {
@@ -62,6 +64,8 @@ class Desk {
 
   std::uint32_t width() const;
   std::uint32_t height() const;
+  /// Numbers of the meshes that have layers, in ROM or made at boot.
+  std::vector<std::uint32_t> layered_meshes() const;
   const firmware::DrawingData& drawing_data() const;
 
   /// Lets the instrument take one step and the display controller send what it led to. `picture` is what the panel

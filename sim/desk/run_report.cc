@@ -14,6 +14,7 @@ const char* cause_name(firmware::UpdateCause cause) {
   switch (cause) {
     case firmware::UpdateCause::kFirst: return "first";
     case firmware::UpdateCause::kDecisions: return "decisions changed";
+    case firmware::UpdateCause::kLayers: return "layers moved";
     case firmware::UpdateCause::kUnchanged: return "unchanged";
   }
   return "";
@@ -37,6 +38,12 @@ ordered_json decisions_json(const firmware::ThinningReport& t) {
           {"kept_telltale", kept(Reason::kTelltale)}};
 }
 
+ordered_json layers_json(std::span<const float> layers) {
+  ordered_json list = ordered_json::array();
+  for (const float layer : layers) list.push_back(layer < 0 ? ordered_json() : ordered_json(layer));
+  return list;
+}
+
 ordered_json frame_json(const FrameRecord& f) {
   const firmware::ThinningReport& t = f.firmware.thinning;
   return {{"frame", f.frame},
@@ -56,6 +63,7 @@ ordered_json frame_json(const FrameRecord& f) {
           {"draw_ms", f.draw_ms},
           {"scanout_ms", f.scanout_ms},
           {"host_ms", f.host_ms},
+          {"layers", layers_json(f.layers)},
           {"thinning",
            {{"cause", t.meshes_in > 0 ? cause_name(t.cause) : "nothing drawn"},
             {"decisions", decisions_json(t)},
@@ -65,6 +73,11 @@ ordered_json frame_json(const FrameRecord& f) {
             {"meshes_unthinned", t.meshes_unthinned},
             {"meshes_dropped", t.meshes_dropped},
             {"quota_halvings", t.quota_halvings},
+            {"bytes_left_in_rom", t.bytes_left_in_rom},
+            {"meshes_layered", t.meshes_layered},
+            {"meshes_moved", t.meshes_moved},
+            {"chains_refused", t.chains_refused},
+            {"layers_given_up", t.layers_given_up},
             {"max_error", t.max_error}}}};
 }
 
@@ -88,6 +101,20 @@ std::string pins_text(std::span<const FrameRecord> frames) {
   return text;
 }
 
+/// From which layer to which the frames' meshes were drawn, where any was drawn from its layers.
+std::string layers_text(const RunSummary& summary, std::span<const FrameRecord> frames) {
+  float finest = 0, coarsest = -1;
+  for (const FrameRecord& f : frames)
+    for (const float layer : f.layers) {
+      if (layer < 0) continue;
+      finest = coarsest < 0 ? layer : std::min(finest, layer);
+      coarsest = std::max(coarsest, layer);
+    }
+  if (coarsest < 0) return {};
+  return fmt::format("  layers  {:.2f} to {:.2f} of {} mesh(es) that have them\n", finest, coarsest,
+                     summary.layered_meshes.size());
+}
+
 }  // namespace
 
 std::string run_report_json(const RunSummary& summary, std::span<const FrameRecord> frames) {
@@ -99,6 +126,7 @@ std::string run_report_json(const RunSummary& summary, std::span<const FrameReco
                       {"ram_peak_bytes", summary.memory.ram_peak_bytes},
                       {"vram_bytes", summary.memory.vram_bytes},
                       {"rom_bytes", summary.memory.rom_bytes},
+                      {"layered_meshes", summary.layered_meshes},
                       {"frames", ordered_json::array()}};
   for (const FrameRecord& f : frames) report["frames"].push_back(frame_json(f));
   return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
@@ -123,6 +151,7 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
     text += fmt::format("  meshes  {} in the ROM, {} drawn\n", t.meshes_in, t.meshes_out);
     text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
                         last.firmware.faces_drawn);
+    text += layers_text(summary, frames);
   } else {
     text += "  nothing was drawn\n";
   }
@@ -142,6 +171,10 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
         "  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or "
         "break the surface\n",
         t.quotas_missed);
+  if (t.chains_refused > 0)
+    text += fmt::format("  layers of {} mesh(es) contradict themselves and are not used; pack the model again\n",
+                        t.chains_refused);
+  if (t.layers_given_up) text += "  RAM was short: meshes were thinned without their layers\n";
   if (t.quota_halvings > 0)
     text += fmt::format("  RAM was short: level-3 quotas were halved {} time(s)\n", t.quota_halvings);
   if (t.meshes_unthinned > 0)

@@ -66,9 +66,11 @@ std::uint32_t fill_sector(Surface& s, const Ring& ring, const Sector& sector, st
   return dead_count;
 }
 
-// The polygon corner, within the first sector, whose vertex is nearest.
-std::uint32_t heir_of(const Surface& s, const Ring& ring) {
+// The polygon corner, within the first sector, where the vertex moves to: the one that its fan meets in, else the
+// nearest. Three corners are filled by one triangle, whatever fan that is.
+std::uint32_t heir_of(const Surface& s, const Ring& ring, std::uint32_t fill) {
   const std::uint32_t last = ring.sectors[0].corner_count - 1;
+  if (is_fan(fill) && (last != 2 || ring.has_closing_edge())) return fill - kFirstFan;
   const std::uint32_t step = ring.has_closing_edge() ? last : 1;
   std::uint32_t nearest = 0;
   float least = 0;
@@ -82,8 +84,8 @@ std::uint32_t heir_of(const Surface& s, const Ring& ring) {
   return nearest;
 }
 
-void tell_successions(const Surface& s, const Ring& ring, CollapseLog& log) {
-  const std::uint32_t heir = heir_of(s, ring);
+void tell_successions(const Surface& s, const Ring& ring, std::uint32_t fill, CollapseLog& log) {
+  const std::uint32_t heir = heir_of(s, ring, fill);
   const std::uint32_t one = s.indices[corner_index(ring.corners[0])];
   log.succeed(one, ring.wedges[heir]);
   if (!ring.has_seam()) return;
@@ -98,7 +100,7 @@ void tell_successions(const Surface& s, const Ring& ring, CollapseLog& log) {
 std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8_t fills[2], CollapseLog* log) {
   if (log != nullptr) {
     log->begin_step();
-    tell_successions(surface, ring, *log);
+    tell_successions(surface, ring, fills[0], *log);
   }
   Corner dead[kMostRingFaces];
   std::uint32_t dead_count = 0;

@@ -104,6 +104,15 @@ float distance_to_segment(Vec3 a, Vec3 b) {
   return length(a + edge * t);
 }
 
+// Whether fans of both sectors meet in one end of the closing edge, where there is any; corners are numbered sector by
+// sector, and the second runs along the seam the other way.
+bool meet_in_an_end(const Ring& ring, std::uint32_t apex, std::uint32_t other) {
+  if (!ring.has_closing_edge()) return true;
+  const std::uint32_t last = ring.sectors[0].corner_count - 1;
+  if (apex != 0 && apex != last) return false;
+  return !ring.has_seam() || other == (apex == 0 ? ring.sectors[1].corner_count - 1 : 0);
+}
+
 float nearest_corner(const SectorShape& sector) {
   float squared = kFar;
   for (std::uint32_t i = 0; i < sector.corner_count; ++i)
@@ -114,12 +123,17 @@ float nearest_corner(const SectorShape& sector) {
 }  // namespace
 
 DeletionEnergy::DeletionEnergy(const Surface& surface, const TexCoord* texture_coordinates,
-                               const VertexDeletionSettings& settings, float mean_area)
+                               const VertexDeletionSettings& settings, float mean_area, bool fans_only)
     : surface_(surface),
       texture_coordinates_(texture_coordinates),
       settings_(settings),
       per_mean_area_(1.0f / mean_area),
-      per_root_mean_area_(1.0f / std::sqrt(mean_area)) {}
+      per_root_mean_area_(1.0f / std::sqrt(mean_area)),
+      fans_only_(fans_only) {}
+
+std::uint32_t DeletionEnergy::fills_of(std::uint32_t corners) const {
+  return fans_only_ ? corners : fill_count(corners);
+}
 
 bool DeletionEnergy::least(const Ring& ring, const TakenEdges* taken, Deletion& best) {
   if (!measure_ring(surface_, texture_coordinates_, ring, shape_)) return false;
@@ -127,20 +141,21 @@ bool DeletionEnergy::least(const Ring& ring, const TakenEdges* taken, Deletion& 
   fills_[1][0] = {.distance = kFar};
   for (std::uint32_t k = 0; k < ring.sector_count; ++k) {
     measure_fills(k, taken != nullptr ? taken->edges[k] : nullptr);
-    counts[k] = fill_count(shape_.sectors[k].corner_count);
+    counts[k] = fills_of(shape_.sectors[k].corner_count);
     triangles += shape_.sectors[k].corner_count - 2;
   }
   // Of two sectors, every pair of fills is tried.
   const float per_triangle = 1.0f / static_cast<float>(triangles);
+  const std::uint32_t first = fans_only_ ? kFirstFan : 0;
   bool any = false;
   for (std::uint32_t i = 0; i < counts[0]; ++i) {
     for (std::uint32_t j = 0; fills_[0][i].allowed && j < counts[1]; ++j) {
-      if (!fills_[1][j].allowed) continue;
+      if (!fills_[1][j].allowed || (fans_only_ && !meet_in_an_end(ring, i, j))) continue;
       const Deletion trial = weighed(fills_[0][i], fills_[1][j], per_triangle);
       if (any && !(trial.energy < best.energy)) continue;
       best = trial;
-      best.fills[0] = static_cast<std::uint8_t>(i);
-      best.fills[1] = static_cast<std::uint8_t>(j);
+      best.fills[0] = static_cast<std::uint8_t>(first + i);
+      best.fills[1] = static_cast<std::uint8_t>(first + j);
       any = true;
     }
   }
@@ -149,8 +164,8 @@ bool DeletionEnergy::least(const Ring& ring, const TakenEdges* taken, Deletion& 
 
 void DeletionEnergy::measure_fills(std::uint32_t sector, const std::uint32_t* taken) {
   const SectorShape& shape = shape_.sectors[sector];
-  const std::uint32_t n = shape.corner_count, count = fill_count(n);
-  const bool all = n <= kMostCornersOfAllFills;
+  const std::uint32_t n = shape.corner_count, count = fills_of(n), first = fans_only_ ? kFirstFan : 0;
+  const bool all = n <= kMostCornersOfAllFills && !fans_only_;
   Part parts[kMostTriples];
   const std::uint8_t* numbers = nullptr;
   if (all && n >= 3) {
@@ -161,8 +176,8 @@ void DeletionEnergy::measure_fills(std::uint32_t sector, const std::uint32_t* ta
     FillSums sums{.distance = kFar};
     for (std::uint32_t t = 0; t + 2 < n && sums.allowed; ++t) {
       const Part part =
-          all ? parts[numbers[f * kTriplesOfFill + t]] : measure_alone(shape_, shape, fill_triangle(n, f, t));
-      sums.allowed = part.allowed && (taken == nullptr || !is_taken(taken, fill_triangle(n, f, t)));
+          all ? parts[numbers[f * kTriplesOfFill + t]] : measure_alone(shape_, shape, fill_triangle(n, first + f, t));
+      sums.allowed = part.allowed && (taken == nullptr || !is_taken(taken, fill_triangle(n, first + f, t)));
       sums.area += part.area;
       sums.normal += part.normal;
       sums.largest = larger(sums.largest, part.area);

@@ -44,11 +44,13 @@ struct TakenEdges {
 /// - has no area, or is a sliver (height below 1/100 of the longest side) much worse than the ring's worst;
 /// - lies the other way round on the texture than all of its side of the ring did;
 /// - has an edge of `taken`.
+/// Of fans alone, at boundary vertices and on seams, the vertex goes to an end of its closing edge, on both sides to the
+/// same.
 class DeletionEnergy {
  public:
-  /// `mean_area` is S' in squared working units, > 0.
+  /// `mean_area` is S' in squared working units, > 0. `fans_only`: SimplifyOptions::for_layers.
   DeletionEnergy(const Surface& surface, const TexCoord* texture_coordinates, const VertexDeletionSettings& settings,
-                 float mean_area);
+                 float mean_area, bool fans_only = false);
 
   /// The fill of least energy; of equals the first. False where no fill may be taken, or the ring has no area.
   bool least(const Ring& ring, const TakenEdges* taken, Deletion& best);
@@ -59,6 +61,7 @@ class DeletionEnergy {
     float area = 0, normal = 0, largest = 0, distance = 0;
   };
 
+  std::uint32_t fills_of(std::uint32_t corners) const;
   void measure_fills(std::uint32_t sector, const std::uint32_t* taken);
   Deletion weighed(const FillSums& one, const FillSums& other, float per_triangle) const;
 
@@ -66,6 +69,7 @@ class DeletionEnergy {
   const TexCoord* texture_coordinates_;
   VertexDeletionSettings settings_;
   float per_mean_area_, per_root_mean_area_;
+  bool fans_only_;
   RingShape shape_;                  // of the ring that is looked at; here, as it is large
   FillSums fills_[2][kMostFills];
 };

@@ -83,6 +83,10 @@ const FillTriangle* triples() { return kTriples.of; }
 const std::uint8_t* triples_of_fills(std::uint32_t corners) { return kFills[corners - 3].triples[0]; }
 
 FillTriangle fill_triangle(std::uint32_t corners, std::uint32_t fill, std::uint32_t t) {
+  if (is_fan(fill)) {
+    const std::uint32_t apex = fill - kFirstFan, next = apex + 1 + t, after = apex + 2 + t;
+    return sorted(apex, next < corners ? next : next - corners, after < corners ? after : after - corners);
+  }
   if (corners <= kMostCornersOfAllFills) return kTriples.of[kFills[corners - 3].triples[fill][t]];
   return sorted(strip_corner(corners, fill, t), strip_corner(corners, fill, t + 1), strip_corner(corners, fill, t + 2));
 }

@@ -136,7 +136,8 @@ class VertexDeletion {
 
 void VertexDeletion::delete_to_target() {
   const float mean_area = measure_faces(surface_);
-  DeletionEnergy energy(surface_, working_.attributes.texture_coordinates, options_.vertex_deletion, mean_area);
+  DeletionEnergy energy(surface_, working_.attributes.texture_coordinates, options_.vertex_deletion, mean_area,
+                        options_.for_layers);
   stage_ = 0;
   for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) cost(energy, v);
   while (faces_ > options_.target_faces && !log_is_full()) {

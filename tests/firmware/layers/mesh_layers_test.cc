@@ -131,6 +131,7 @@ class MeshLayers : public ::testing::TestWithParam<Method> {
     firmware::SimplifyOptions options;
     options.target_faces = target;
     options.method = GetParam();
+    options.for_layers = true;
     EXPECT_TRUE(firmware::simplify(working, options, arena).ok());
     Picture picture;
     for (std::uint32_t f = 0; f < working.face_count; ++f) {
@@ -158,7 +159,8 @@ class MeshLayers : public ::testing::TestWithParam<Method> {
   std::vector<TexCoord> coordinates_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::Values(Method::kHalfEdge, Method::kQem));
+INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::Values(Method::kHalfEdge, Method::kQem, Method::kEdgeRemoval,
+                                                                Method::kVertexDeletion));
 
 TEST_P(MeshLayers, EveryLayerIsWhatTheMethodAloneMakes) {
   ASSERT_TRUE(status_.ok()) << status_.message << " " << status_.where;
@@ -168,6 +170,23 @@ TEST_P(MeshLayers, EveryLayerIsWhatTheMethodAloneMakes) {
     const Picture alone = thinned(layer.faces), from_chain = replayed(layer.step);
     EXPECT_EQ(alone.size(), from_chain.size()) << "layer " << n;
     EXPECT_TRUE(alone == from_chain) << "layer " << n;
+  }
+}
+
+TEST_P(MeshLayers, AtItsEndAMiddleLayerIsTheNextLayer) {
+  ASSERT_TRUE(status_.ok());
+  const firmware::VertexStreams given{mesh_.positions, mesh_.normals, mesh_.colours, mesh_.texture_coordinates};
+  for (std::uint32_t n = 0; n + 1 < chain_.layer_count(); ++n) {
+    const Picture next = replayed(chain_.layer(n + 1).step);
+    firmware::write_middle_layer(chain_, given, n, 1, {positions_, normals_, colours_, coordinates_});
+    Picture end;  // of the faces that have not shrunk to nothing
+    for (const auto& face : replayed(chain_.layer(n).step)) {
+      const auto place = [&](std::size_t k) { return std::vector(face[k].begin(), face[k].begin() + 3); };
+      if (place(0) != place(1) && place(1) != place(2) && place(2) != place(0)) end.insert(face);
+    }
+    EXPECT_EQ(end.size(), chain_.layer(n + 1).faces);
+    EXPECT_TRUE(end == next) << "layer " << n;
+    firmware::write_middle_layer(chain_, given, n, 0, {positions_, normals_, colours_, coordinates_});
   }
 }
 

@@ -73,8 +73,10 @@ std::vector<std::byte> block_of(const ThinningBench& bench, std::uint32_t n) {
 }
 
 class LayersOfMethod : public ::testing::TestWithParam<Method> {};
+/// Vertex deletion for layers fills by fans alone.
+class LayersAsWithout : public ::testing::TestWithParam<Method> {};
 
-TEST_P(LayersOfMethod, AQuotaIsReachedWithTheFacesThatTheMethodMakes) {
+TEST_P(LayersAsWithout, AQuotaIsReachedWithTheFacesThatTheMethodMakes) {
   ThinningBench layered(container_rom({layered_hills(GetParam())}));
   ThinningBench searched(container_rom({smooth_hills(GetParam())}));
   const std::uint32_t quota = 216 * kAll / 1000;
@@ -137,6 +139,8 @@ TEST_P(LayersOfMethod, BetweenTwoLayersVerticesStandBetweenThem) {
   EXPECT_EQ(bench.report.faces_out, below);
 }
 
+INSTANTIATE_TEST_SUITE_P(Methods, LayersAsWithout,
+                         ::testing::Values(Method::kQem, Method::kEdgeRemoval, Method::kHalfEdge));
 INSTANTIATE_TEST_SUITE_P(Methods, LayersOfMethod,
                          ::testing::Values(Method::kQem, Method::kEdgeRemoval, Method::kHalfEdge,
                                            Method::kVertexDeletion));

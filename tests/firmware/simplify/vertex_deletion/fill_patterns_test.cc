@@ -98,6 +98,26 @@ TEST(FillPatterns, LargeFillsAreDistinctTriangulationsOfThreePerCornerAtMost) {
   }
 }
 
+TEST(FillPatterns, FansAreTriangulationsThatMeetInTheirCorner) {
+  for (std::uint32_t n = 3; n <= kMostCorners; ++n) {
+    for (std::uint32_t apex = 0; apex < n; ++apex) {
+      ASSERT_TRUE(is_fan(kFirstFan + apex));
+      const Fill fill = fill_of(n, kFirstFan + apex);
+      ASSERT_EQ(fill.size(), n - 2);
+      std::set<Edge> far_sides;  // of the polygon: all but the two that end in the corner
+      for (const auto& t : fill) {
+        EXPECT_EQ(std::count(t.begin(), t.end(), apex), 1) << n << " corners";
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t c : t)
+          if (c != apex) others.push_back(c);
+        EXPECT_TRUE(others[1] == others[0] + 1 || (others[0] == 0 && others[1] == n - 1));
+        far_sides.insert({others[0], others[1]});
+      }
+      EXPECT_EQ(far_sides.size(), n - 2);
+    }
+  }
+}
+
 TEST(FillPatterns, TriplesAreNumberedOnce) {
   for (std::uint32_t n = 3; n <= 6; ++n) {
     std::set<std::vector<std::uint32_t>> seen;
