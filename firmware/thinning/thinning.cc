@@ -1,5 +1,6 @@
 #include "firmware/thinning/thinning.h"
 
+#include <algorithm>
 #include <bit>
 #include <new>
 
@@ -23,6 +24,13 @@ std::uint64_t whole_bytes(const MeshView& mesh) {
   const std::uint64_t vertex = sizeof(Vec3) + sizeof(PackedNormal) + (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
                                (mesh.textured ? sizeof(TexCoord) : 0);
   return mesh.positions.size() * vertex + (mesh.indices.size() + 3) / 4 * 4;
+}
+
+/// What thinning a mesh by its method takes at most beside the copies of all meshes.
+std::uint64_t thinning_bytes(const MeshView& mesh, std::uint32_t faces) {
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  return whole_bytes(mesh) + std::uint64_t{faces} * 12 + mesh.groups.size() * sizeof(MaterialGroup) +
+         std::uint64_t{vertices} * 4 + simplify_scratch_bytes(mesh.method, vertices, faces, mesh.textured);
 }
 
 /// Whether a mesh as decided can be drawn from its chain.
@@ -91,12 +99,15 @@ Status Thinning::begin_layers(Arena& ram, std::span<const std::uint32_t> boot_la
     return mesh.level == Level::kCollapse && !mesh.normals.empty() && (!mesh.layers.empty() || !boot_layers.empty());
   };
   std::uint32_t count = 0;
-  std::uint64_t copy_bytes = std::uint64_t{data_->mesh_max()} * RamCopy::kTableBytes;
+  std::uint64_t needed = std::uint64_t{data_->mesh_max()} * RamCopy::kTableBytes, largest_thinning = 0;
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     const MeshView mesh = view_of(n);
     if (may_have_layers(mesh)) states_[n].layered_slot = count++;
-    copy_bytes += whole_bytes(mesh);
+    needed += whole_bytes(mesh);
+    if (mesh.level == Level::kCollapse)
+      largest_thinning = std::max(largest_thinning, thinning_bytes(mesh, states_[n].faces));
   }
+  needed += largest_thinning;
   layered_ = ram.allocate<LayeredMesh>(count);
   if (layered_.size() != count)
     return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes with layers; meshes", count};
@@ -107,22 +118,22 @@ Status Thinning::begin_layers(Arena& ram, std::span<const std::uint32_t> boot_la
     layered.mesh = n;
     layered.box = box_of(mesh.positions);
     layered.chain = mesh.layers;
-    if (layered.chain.empty()) copy_bytes += make_layers(mesh, boot_layers, copy_bytes, ram, layered);
+    if (layered.chain.empty()) needed += make_layers(mesh, boot_layers, needed, ram, layered);
   }
   return ok_status();
 }
 
-/// Makes the mesh's chain where RAM then still holds `copy_bytes` and what its block is larger than the mesh; returns
+/// Makes the mesh's chain where RAM then still holds `needed` bytes and what its block is larger than the mesh; returns
 /// that difference.
-std::uint64_t Thinning::make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas,
-                                    std::uint64_t copy_bytes, Arena& ram, LayeredMesh& layered) {
+std::uint64_t Thinning::make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t needed,
+                                    Arena& ram, LayeredMesh& layered) {
   const std::size_t mark = ram.used();
   const auto made = make_mesh_layers(mesh, states_[mesh.number].faces, quotas, Placement::kOptimal, ram);
   if (!made.ok()) return 0;  // it is thinned by its method whenever asked for
   const std::uint64_t whole = whole_bytes(mesh);
   const std::uint64_t block = layered_bytes(mesh, LayerChainView::of_checked(*made), true, false);
   const std::uint64_t more = block > whole ? block - whole : 0;
-  if (copy_bytes + more > ram.available()) {
+  if (needed + more > ram.available()) {
     ram.rewind(mark);
     return 0;
   }

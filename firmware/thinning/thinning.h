@@ -67,8 +67,9 @@ class Thinning {
   /// `rom_on_bus`: the 3D engine reads `data` where they lie. Meshes that their method thins without new vertices are
   /// then drawn with the vertices in ROM wherever that takes less RAM.
   /// `boot_layers`: quotas of layers (layer_quotas_fall()) to make for those level-3 meshes that ROM has none for, in
-  /// their order, as long as what is left of RAM holds every mesh whole, layered ones with their chain's block. Takes
-  /// as long as thinning them to the last quota. kInvalidArgument: the quotas do not fall.
+  /// their order, as long as what is left of RAM holds every mesh whole, layered ones with their chain's block, and
+  /// what thinning any one takes. Takes as long as thinning them to the last quota. kInvalidArgument: the quotas do not
+  /// fall.
   Status begin(const DrawingData& data, Arena& ram, bool rom_on_bus = false,
                std::span<const std::uint32_t> boot_layers = {});
 
@@ -97,7 +98,7 @@ class Thinning {
 
   MeshView view_of(std::uint32_t n) const { return data_->mesh_at(n, states_[n].record_offset); }
   Status begin_layers(Arena& ram, std::span<const std::uint32_t> boot_layers);
-  std::uint64_t make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t copy_bytes,
+  std::uint64_t make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t needed,
                             Arena& ram, LayeredMesh& layered);
   LayeredMesh* layered(std::uint32_t n);
   void decide_layers(LayerMode mode, std::uint32_t n, Decision& decision);

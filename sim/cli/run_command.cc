@@ -121,8 +121,9 @@ firmware::Attention attention_option(const std::string& value, const Desk& desk)
     const auto y = parse_whole_number(std::string_view(value).substr(comma + 1), desk.height() - 1);
     if (x && y) return {true, static_cast<float>(*x), static_cast<float>(*y)};
   }
-  throw Error(ExitCode::kUsage, fmt::format("--attention {}: must be X,Y in pixels from the top left corner, below {},{}",
-                                            value, desk.width(), desk.height()));
+  throw Error(ExitCode::kUsage,
+              fmt::format("--attention {}: must be X,Y in pixels from the top left corner, at most {},{}", value,
+                          desk.width() - 1, desk.height() - 1));
 }
 
 firmware::LayerMode layer_mode(const std::string& lod) {
@@ -221,6 +222,18 @@ void note_reduced_formats(const Desk& desk, const BoardDescription& board) {
                            pixels ? "in RGB565, " : ""));
 }
 
+void note_missing_layers(const RunOptions& options, const Desk& desk, bool any_collapse) {
+  if (!desk.layered_meshes().empty()) return;
+  if (!options.boot_layers.empty())
+    print_note(fmt::format("--boot-layers {} has no effect: {}", options.boot_layers,
+                           any_collapse ? "RAM has no room for layers, or meshes have no normals; pack --layers makes "
+                                          "them beforehand"
+                                        : "no mesh has level 3"));
+  else if (options.lod != "off")
+    print_note(fmt::format("--lod {} has no effect: no mesh has layers; give pack --layers or run --boot-layers",
+                           options.lod));
+}
+
 /// Says which options are in order but change nothing, so that nobody waits for what they should do.
 void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const PolicyOptions& policies,
                              const CameraPath& path) {
@@ -231,11 +244,7 @@ void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const 
   for (const auto& [option, value] : {std::pair{"--quota", options.quota}, {"--placement", options.placement}})
     if (!any_collapse && !value.empty())
       print_note(fmt::format("{} {} has no effect: no mesh has level 3", option, value));
-  if (options.lod != "off" && desk.layered_meshes().empty())
-    print_note(fmt::format("--lod {} has no effect: no mesh has layers; give pack --layers or run --boot-layers",
-                           options.lod));
-  if (!options.boot_layers.empty() && !any_collapse)
-    print_note(fmt::format("--boot-layers {} has no effect: no mesh has level 3", options.boot_layers));
+  note_missing_layers(options, desk, any_collapse);
   if (options.orbit && options.frames == 1) print_note("--orbit has no effect on one frame; give --frames");
   if (path.cameras() > options.frames)
     print_note(fmt::format("{}: {} cameras for {} frame(s); give --frames {} to use them all", options.camera,
@@ -316,7 +325,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--attention", options->attention,
-                   "Where the viewer looks, pixels from the top left corner: --lod auto then thins what is far from it more")
+                   "Where the viewer looks, pixels from the top left corner: --lod auto then thins more what is far "
+                   "from it")
       ->type_name("X,Y");
   command
       ->add_option("--boot-layers", options->boot_layers,

@@ -44,8 +44,8 @@ struct TakenEdges {
 /// - has no area, or is a sliver (height below 1/100 of the longest side) much worse than the ring's worst;
 /// - lies the other way round on the texture than all of its side of the ring did;
 /// - has an edge of `taken`.
-/// Of fans alone, at boundary vertices and on seams, the vertex goes to an end of its closing edge, on both sides to the
-/// same.
+/// Of fans alone, at boundary vertices and on seams, the vertex goes to an end of its closing edge, on both sides to
+/// the same.
 class DeletionEnergy {
  public:
   /// `mean_area` is S' in squared working units, > 0. `fans_only`: SimplifyOptions::for_layers.

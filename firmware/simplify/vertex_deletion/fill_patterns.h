@@ -25,8 +25,8 @@ struct FillTriangle {
 /// The number of fills of a polygon of 2 to kMostCorners corners. Two corners (an edge) have one, without triangles.
 std::uint32_t fill_count(std::uint32_t corners);
 
-/// Fills kFirstFan to kFirstFan + corners - 1 are fans: all triangles meet in corner `fill - kFirstFan`, where the deleted
-/// vertex can be drawn moving to.
+/// Fills kFirstFan to kFirstFan + corners - 1 are fans: all triangles meet in corner `fill - kFirstFan`, where the
+/// deleted vertex can be drawn moving to.
 inline constexpr std::uint8_t kFirstFan = 64;
 constexpr bool is_fan(std::uint32_t fill) { return fill >= kFirstFan; }
 

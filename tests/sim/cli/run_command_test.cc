@@ -256,9 +256,51 @@ TEST_F(RunCommand, ChoosesByNameAsPackDoes) {
   expect_one_line_error(usuzumi("run bare.rom --policy chosen:Wheel"), 2, "bare drawing data have no names");
 }
 
+TEST_F(RunCommand, DrawsMeshesFromTheirLayers) {
+  ASSERT_EQ(usuzumi("pack hills.obj -o layered.rom --default-level 3 --layers 100,60,36,21.6").exit_code, 0);
+  const auto report = [&](const std::string& options) {
+    const Ran ran = usuzumi("run --size 160x96 --stats stats.json " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    return json_file("stats.json");
+  };
+  // Half of 800 faces lie between 480 and 288: by replay exactly, by layers a little beyond layer 1.
+  const auto exact = report("layered.rom");
+  EXPECT_EQ(exact["layered_meshes"].size(), 1u);
+  EXPECT_EQ(exact["frames"][0]["faces_thinned"], 400);
+  EXPECT_EQ(exact["frames"][0]["thinning"]["meshes_layered"], 1);
+  const auto between = report("layered.rom --lod quota --quota 50%");
+  EXPECT_EQ(between["frames"][0]["faces_thinned"], 480);
+  EXPECT_NEAR(between["frames"][0]["layers"][0].get<double>(), 1 + 80.0 / 192, 0.01);
+  // 160 pixels' worth of faces is fewer than all; attention far away asks for fewer still.
+  const auto layer_of = [&](const std::string& options) {
+    return report(options)["frames"][0]["layers"][0].get<double>();
+  };
+  const double automatic = layer_of("layered.rom --lod auto");
+  EXPECT_LT(automatic, layer_of("layered.rom --lod auto --attention 0,0"));
+  const auto booted = report("hills.rom --boot-layers 100,60,36,21.6 --lod quota --quota 50%");
+  EXPECT_EQ(booted["frames"][0]["layers"], between["frames"][0]["layers"]);
+  EXPECT_EQ(booted["frames"][0]["crc32"], between["frames"][0]["crc32"]);
+  EXPECT_TRUE(report("hills.rom")["frames"][0]["layers"].empty());
+}
+
+TEST_F(RunCommand, RefusesLayersAndAttentionThatCannotBe) {
+  expect_one_line_error(usuzumi("run hills.rom --boot-layers 100,60,80"), 2, "--boot-layers 100,60,80");
+  expect_one_line_error(usuzumi("run hills.rom --boot-layers 60,30"), 2, "--boot-layers 60,30");
+  expect_one_line_error(usuzumi("run hills.rom --attention 10,10"), 2, "--lod auto");
+  for (const char* place : {"10", "160,10", "10,96", "-1,4", "a,b"})
+    expect_one_line_error(
+        usuzumi(std::string("run hills.rom --size 160x96 --lod auto --boot-layers 100,50 --attention=") + place), 2,
+        "--attention");
+  expect_one_line_error(usuzumi("run hills.rom --thin off --lod auto"), 2, "--lod");
+  expect_one_line_error(usuzumi("run hills.rom --lod fast"), 2, "--lod");
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --lod auto").err,
+            "note: --lod auto has no effect: no mesh has layers; give pack --layers or run --boot-layers\n");
+}
+
 TEST_F(RunCommand, TakesNoEmptyValueForAnOptionLeftOut) {
   for (const char* option : {"--size", "--format", "--out", "--stats", "--camera", "--quota", "--policy",
-                             "--background", "--gpio", "--fault"})
+                             "--background", "--gpio", "--fault", "--lod", "--attention", "--boot-layers"})
     expect_one_line_error(usuzumi(std::string("run hills.rom ") + option + " ''"), 2, option);
   expect_one_line_error(usuzumi("compare hills.rom hills.rom --diff ''"), 2, "--diff");
   expect_one_line_error(usuzumi("pack '' -o out.rom"), 2, "INPUT");
