@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "sim/pack/method_settings.h"
 #include "tests/sim/pack/support.h"
 
 namespace usuzumi {
@@ -44,15 +45,19 @@ std::vector<std::string> model_files() {
 // A skipped test would count as passed; sim/install.sh brings the models.
 #define ASSERT_IS_HERE(path) ASSERT_TRUE(fs::exists(path)) << path << " is not here: install assimp-testmodels"
 
+// With layers, by the four methods in turn.
 TEST(RealModels, EachGivesASoundRomOrOneClearLine) {
   ASSERT_IS_HERE(kFolders[0]);
   const std::vector<std::string> files = model_files();
   EXPECT_GE(files.size(), 100u);
-  std::size_t sound = 0;
+  std::size_t sound = 0, tried = 0;
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
     TempFolder folder;
-    const CommandResult result = run_usuzumi({"pack", file, "-o", folder / "out.rom", "--time-limit", "60"});
+    const std::string method(sim::kMethodNames[tried++ % sim::kMethodNames.size()]);
+    const CommandResult result =
+        run_usuzumi({"pack", file, "-o", folder / "out.rom", "--time-limit", "60", "--default-level", "3", "--method",
+                     "*=" + method, "--layers", "100,60,20"});
     if (result.exit_code == 0) {
       ++sound;
       const std::vector<std::byte> rom = bytes_of_file(folder / "out.rom");
@@ -62,6 +67,7 @@ TEST(RealModels, EachGivesASoundRomOrOneClearLine) {
         EXPECT_GT(opened->mesh(n).face_count(), 0u);
         EXPECT_EQ(opened->mesh(n).normals.size(), opened->mesh(n).positions.size());
         EXPECT_FALSE(opened->mesh(n).name.empty());
+        EXPECT_FALSE(opened->mesh(n).layers.empty()) << n << " by " << method;
       }
       continue;
     }
