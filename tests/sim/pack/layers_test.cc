@@ -113,7 +113,7 @@ void add_face(std::multiset<Face>& faces, Face face) {
   faces.insert(face);
 }
 
-/// The mesh thinned by its own method at once, as if there were no layers.
+/// The mesh thinned by its own method at once, without a chain.
 Picture thinned(const MeshView& mesh, std::uint32_t target) {
   std::vector<Vec3> positions(mesh.positions.begin(), mesh.positions.end());
   std::vector<PackedNormal> normals(mesh.normals.begin(), mesh.normals.end());
@@ -144,6 +144,7 @@ Picture thinned(const MeshView& mesh, std::uint32_t target) {
   options.method = mesh.method;
   options.edge_removal = mesh.edge_removal();
   options.vertex_deletion = mesh.vertex_deletion();
+  options.for_layers = true;
   EXPECT_TRUE(firmware::simplify(work, options, arena).ok());
   Picture picture(mesh.group_count());
   for (std::uint32_t f = 0, g = 0; f < work.face_count; ++f) {
