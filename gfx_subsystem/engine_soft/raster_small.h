@@ -1,11 +1,11 @@
 // Raster of small triangles: the few 4x4 blocks of the bounding box, all three edge functions at once, no hierarchy.
-// Where the processor has no vectors, raster_small_scalar.h does the same pixel by pixel.
+// Where the processor has no vectors, raster_pixels.h does the same pixel by pixel.
 #pragma once
 
 #include <bit>
 
 #include "gfx_subsystem/engine_soft/fragment_shader.h"
-#include "gfx_subsystem/engine_soft/raster_small_scalar.h"
+#include "gfx_subsystem/engine_soft/raster_pixels.h"
 #include "gfx_subsystem/engine_soft/shader.h"
 
 namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
@@ -54,9 +54,12 @@ template <class PixelShader>
 /// Returns the pixels covered.
 template <Shading kShading, bool kDepth, bool kRgb565>
 std::uint32_t raster_small(const DrawSetup& d, const SmallTriangle& t, TileOrigin origin, const TileBuffers& tile) {
-  if constexpr (kPixelwise) return raster_small_scalar<kShading, kDepth, kRgb565>(d, t, origin, tile);
-  const Shader<kShading, kDepth, kRgb565> shader(d, t.planes, reinterpret_cast<const PerspectivePlanes*>(&t + 1));
-  return raster_small_blocks(shader, t, origin, tile);
+  const auto* perspective = reinterpret_cast<const PerspectivePlanes*>(&t + 1);
+  if constexpr (kPixelwise)
+    return visit_small_pixels(t, origin, [&](std::uint32_t x, std::uint32_t y, std::size_t at) {
+      draw_pixel<kShading, kDepth, kRgb565>(d, t.planes, perspective, x, y, tile, at);
+    });
+  else return raster_small_blocks(Shader<kShading, kDepth, kRgb565>(d, t.planes, perspective), t, origin, tile);
 }
 
 /// The same of a triangle of fragments.
@@ -65,7 +68,11 @@ template <TexelFetch kFetch>
                                                        const TileBuffers& tile) {
   const auto& texture = *reinterpret_cast<const TexturePlanes*>(&t + 1);
   const FragmentShader<kFetch> shader(d, t.planes, texture, reinterpret_cast<const PerspectivePlanes*>(&t + 2));
-  return raster_small_blocks(shader, t, origin, tile);
+  if constexpr (kPixelwise)
+    return visit_small_pixels(t, origin, [&](std::uint32_t x, std::uint32_t y, std::size_t at) {
+      shader.pixel(x, y, tile, at);
+    });
+  else return raster_small_blocks(shader, t, origin, tile);
 }
 
 }  // namespace

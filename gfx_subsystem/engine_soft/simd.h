@@ -16,7 +16,7 @@ namespace usuzumi::gfx::soft::USUZUMI_KERNEL {
 namespace {
 
 inline constexpr int kLanes = USUZUMI_KERNEL_LANES;  // 4, 8 or 16
-/// Small triangles are rasterized pixel by pixel: where vectors are but pretended, edges cost less so.
+/// Triangles are rasterized and fragments worked out pixel by pixel: where vectors are but pretended, that costs less.
 #if defined(USUZUMI_KERNEL_PIXELWISE)
 inline constexpr bool kPixelwise = true;
 #else
