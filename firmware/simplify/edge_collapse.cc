@@ -102,8 +102,10 @@ CollapsedEdge collapse_edge(Surface& surface, std::uint32_t* vertex_of_wedge, co
     const std::uint32_t kept = surface.indices[corner_index(c)];
     const std::uint32_t removed = surface.indices[corner_index(at_remove)];
     if (pairs.add(kept, removed) && attributes.any()) attributes.mix(kept, removed, of_removed);
-    merge.remove_face(c, at_remove, out_removed ? in : out);
-    result.removed[result.faces_removed++] = {c >> 2, kept, removed};
+    const Corner at_apex = out_removed ? in : out;
+    result.removed[result.faces_removed++] = {c >> 2, kept, removed, surface.vertex_at(at_apex),
+                                              surface.indices[corner_index(at_apex)]};
+    merge.remove_face(c, at_remove, at_apex);
   }
   for (Corner c = first_removed, next; c != kNoCorner; c = next) {
     next = surface.next_corner_of(c);
@@ -135,10 +137,11 @@ CollapsedEdge collapse_half_edge(Surface& surface, const Neighbourhood& n) {
       merge.append(c);
       continue;
     }
-    const Corner at_removed = out_removed ? out : in;
-    result.removed[result.faces_removed++] = {c >> 2, surface.indices[corner_index(c)],
-                                              surface.indices[corner_index(at_removed)]};
-    merge.remove_face(c, at_removed, out_removed ? in : out);
+    const Corner at_removed = out_removed ? out : in, at_apex = out_removed ? in : out;
+    result.removed[result.faces_removed++] = {
+        c >> 2, surface.indices[corner_index(c)], surface.indices[corner_index(at_removed)],
+        surface.vertex_at(at_apex), surface.indices[corner_index(at_apex)]};
+    merge.remove_face(c, at_removed, at_apex);
   }
   for (Corner c = first_removed, next; c != kNoCorner; c = next) {
     next = surface.next_corner_of(c);

@@ -37,9 +37,9 @@ struct WedgePairs {
   }
 };
 
-/// A face on the collapsed edge, and the wedges that it had at both ends.
+/// A face on the collapsed edge, the wedges that it had at both ends, and its third corner's vertex and wedge.
 struct RemovedFace {
-  std::uint32_t face, kept_wedge, removed_wedge;
+  std::uint32_t face, kept_wedge, removed_wedge, apex, apex_wedge;
 };
 
 struct CollapsedEdge {

@@ -21,6 +21,17 @@ std::uint32_t LogRecorder::add_moved(std::uint32_t wedge, Vec3 position) {
   return store;
 }
 
+// A wedge that no face names any more goes where its vertex goes: while a middle layer is drawn, its faces are still
+// there.
+void LogRecorder::leave_apex(const RemovedFace& removed, std::uint32_t first_store) {
+  const std::uint32_t stands = standing_wedge(working_.surface, removed.apex, removed.apex_wedge);
+  if (stands == removed.apex_wedge) return;
+  const std::uint32_t to = stands == kNoWedge ? first_store : log_->current(stands);
+  if (log_->current(removed.apex_wedge) == to) return;  // told of by another face
+  log_->succeed(log_->current(removed.apex_wedge), to);
+  log_->set_current(removed.apex_wedge, to);
+}
+
 void LogRecorder::record(const CollapsedEdge& collapsed) {
   if (log_ == nullptr || log_->full()) return;
   const Surface& s = working_.surface;
@@ -63,6 +74,7 @@ void LogRecorder::record(const CollapsedEdge& collapsed) {
     const RemovedFace& removed = collapsed.removed[i];
     leave(removed.removed_wedge, removed.kept_wedge);
     leave(removed.kept_wedge, removed.removed_wedge);
+    leave_apex(removed, first_store);
     log_->remove_face(removed.face);
   }
   log_->end_step();

@@ -20,7 +20,8 @@ class LogRecorder {
 
   /// After a collapse, its vertex moved and its wedges' attributes final: one step. A store vertex is added for each
   /// wedge of the vertex that stays; wedges that are gone are succeeded by the one they became, or, where no face names
-  /// that one any more, by another of the same vertex.
+  /// that one any more, by another of the same vertex. So are wedges at the removed faces' third corners that no face
+  /// names any more.
   void record(const CollapsedEdge& collapsed);
 
   /// True where the log has no room for what was recorded: the method stops with log_full_status().
@@ -28,6 +29,7 @@ class LogRecorder {
 
  private:
   std::uint32_t add_moved(std::uint32_t wedge, Vec3 position);
+  void leave_apex(const RemovedFace& removed, std::uint32_t first_store);
 
   CollapseLog* log_;
   const WorkingSurface& working_;

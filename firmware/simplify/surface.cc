@@ -36,4 +36,14 @@ void unlink_corner(Surface& surface, std::uint32_t v, Corner c) {
   link = (link & ~kCornerMask) | after;
 }
 
+std::uint32_t standing_wedge(const Surface& surface, std::uint32_t v, std::uint32_t wedge) {
+  std::uint32_t other = kNoWedge;
+  for (Corner c = surface.first_corner(v); c != kNoCorner; c = surface.next_corner_of(c)) {
+    const std::uint32_t named = surface.indices[corner_index(c)];
+    if (named == wedge) return wedge;
+    if (other == kNoWedge) other = named;
+  }
+  return other;
+}
+
 }  // namespace usuzumi::firmware

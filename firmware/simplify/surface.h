@@ -82,4 +82,9 @@ std::uint32_t link_corners(Surface& surface);
 /// Takes corner `c` out of the list of vertex `v`.
 void unlink_corner(Surface& surface, std::uint32_t v, Corner c);
 
+/// What stands for `wedge` at vertex `v`: itself while a face names it there, else the first that one names; kNoWedge
+/// where `v` has no face.
+inline constexpr std::uint32_t kNoWedge = 0xFFFFFFFFu;
+std::uint32_t standing_wedge(const Surface& surface, std::uint32_t v, std::uint32_t wedge);
+
 }  // namespace usuzumi::firmware

@@ -65,6 +65,7 @@ class HalfEdgeSimplifier {
   bool has_successors(const HalfEdge& half_edge, const WedgeMatching& matching) const;
   void replace_wedges(const HalfEdge& half_edge, const WedgeMatching& matching);
   void merge_quadrics(const HalfEdge& half_edge);
+  void tell_of_removed(const CollapsedEdge& collapsed);
   void tell_successions(std::uint32_t from, const WedgeMatching& matching);
   void update_seams_around(std::uint32_t v);
   void refuse(Corner edge, std::uint32_t ways);
@@ -188,7 +189,7 @@ std::uint32_t HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
   const CollapsedEdge collapsed = collapse_half_edge(surface_, n);
   faces_ -= collapsed.faces_removed;
   ++outcome_.work.collapses;
-  if (options_.log != nullptr) options_.log->end_step();
+  if (options_.log != nullptr) tell_of_removed(collapsed);
   merge_quadrics(half_edge);
   costs_.merge_areas(n.a, n.b);
 
@@ -236,6 +237,21 @@ void HalfEdgeSimplifier::tell_successions(std::uint32_t from, const WedgeMatchin
     const std::uint32_t wedge = surface_.indices[corner_index(c)];
     options_.log->succeed(wedge, matching.successor(wedge));
   }
+}
+
+/// Wedges that only removed faces named go where their vertex goes.
+void HalfEdgeSimplifier::tell_of_removed(const CollapsedEdge& collapsed) {
+  CollapseLog& log = *options_.log;
+  const auto leave = [&](std::uint32_t v, std::uint32_t wedge, std::uint32_t otherwise) {
+    const std::uint32_t stands = standing_wedge(surface_, v, wedge);
+    if (stands != wedge) log.succeed(wedge, stands == kNoWedge ? otherwise : stands);
+  };
+  for (std::uint32_t i = 0; i < collapsed.faces_removed; ++i) {
+    const RemovedFace& removed = collapsed.removed[i];
+    leave(collapsed.vertex, removed.kept_wedge, removed.kept_wedge);
+    leave(removed.apex, removed.apex_wedge, removed.kept_wedge);
+  }
+  log.end_step();
 }
 
 void HalfEdgeSimplifier::merge_quadrics(const HalfEdge& half_edge) {

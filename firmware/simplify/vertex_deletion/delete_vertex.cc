@@ -95,12 +95,39 @@ void tell_successions(const Surface& s, const Ring& ring, std::uint32_t fill, Co
   if (other != one) log.succeed(other, ring.wedges[sector.first_corner + (heir == 0 ? sector.corner_count - 1 : 0)]);
 }
 
+// What the ring's faces name at the polygon's corners.
+struct RimWedges {
+  std::uint32_t count = 0;
+  std::uint32_t vertices[2 * kMostRingFaces], wedges[2 * kMostRingFaces];
+};
+
+RimWedges rim_wedges(const Surface& s, const Ring& ring) {
+  RimWedges rim;
+  for (std::uint32_t i = 0; i < ring.face_count; ++i) {
+    for (const Corner c : {next_in_face(ring.corners[i]), previous_in_face(ring.corners[i])}) {
+      rim.vertices[rim.count] = s.vertex_at(c);
+      rim.wedges[rim.count++] = s.indices[corner_index(c)];
+    }
+  }
+  return rim;
+}
+
+// Those that no face names any more go where their vertex goes.
+void tell_left_wedges(const Surface& s, const RimWedges& rim, CollapseLog& log) {
+  for (std::uint32_t i = 0; i < rim.count; ++i) {
+    const std::uint32_t stands = standing_wedge(s, rim.vertices[i], rim.wedges[i]);
+    if (stands != rim.wedges[i] && stands != kNoWedge) log.succeed(rim.wedges[i], stands);
+  }
+}
+
 }  // namespace
 
 std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8_t fills[2], CollapseLog* log) {
+  RimWedges rim;
   if (log != nullptr) {
     log->begin_step();
     tell_successions(surface, ring, fills[0], *log);
+    rim = rim_wedges(surface, ring);
   }
   Corner dead[kMostRingFaces];
   std::uint32_t dead_count = 0;
@@ -113,7 +140,10 @@ std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8
     if (log != nullptr) log->remove_face(face);
   }
   surface.vertices[ring.vertex].first_corner = kNoCorner;
-  if (log != nullptr) log->end_step();
+  if (log != nullptr) {
+    tell_left_wedges(surface, rim, *log);
+    log->end_step();
+  }
   return dead_count;
 }
 

@@ -22,6 +22,7 @@ using firmware::MeshView;
 using firmware::Method;
 
 constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
+constexpr std::uint32_t kFarQuotas[] = {1'000'000, 300'000, 100'000, 30'000};
 
 /// A body with a seam, two attributes that differ on its sides, and normals that are sharp at its edges.
 testing::Mesh body() {
@@ -45,6 +46,33 @@ testing::Mesh body() {
     joined.texture_coordinates.push_back({p.x / 8 + static_cast<float>(n.bits % 5), p.y / 8});
   }
   return joined;
+}
+
+/// A ball of charts: every face of a coarse one has texture coordinates and a normal of its own, so that thinning comes
+/// to faces that alone name some wedge of their corners.
+testing::Mesh charted_ball() {
+  const testing::Mesh coarse = testing::icosphere(1);
+  testing::Mesh mesh;
+  for (std::uint32_t chart = 0; chart < coarse.face_count(); ++chart) {
+    testing::Mesh part;
+    part.indices = {0, 1, 2};
+    Vec3 middle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      part.positions.push_back(coarse.positions[coarse.indices[3 * chart + k]]);
+      middle = middle + part.positions[k];
+    }
+    part = testing::subdivided(testing::subdivided(part));
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& p : part.positions) {
+      const Vec3 on_ball = normalized(p);
+      mesh.positions.push_back(on_ball * (1 + 0.1f * on_ball.x * on_ball.y));
+      mesh.normals.push_back(pack_normal(normalized(middle)));
+      mesh.colours.push_back(rgba8(chart * 3, 255 - chart * 3, 128));
+      mesh.texture_coordinates.push_back({p.x + static_cast<float>(chart), p.y});
+    }
+    for (const std::uint32_t v : part.indices) mesh.indices.push_back(first + v);
+  }
+  return mesh;
 }
 
 MeshView view_of(const testing::Mesh& mesh, Method method) {
@@ -82,10 +110,12 @@ void add_face(Picture& picture, std::array<Corner, 3> face) {
 
 class MeshLayers : public ::testing::TestWithParam<Method> {
  protected:
-  MeshLayers() : mesh_(body()), view_(view_of(mesh_, GetParam())), faces_(view_.proper_face_count()) {
+  MeshLayers() : MeshLayers(body(), kQuotas) {}
+  MeshLayers(const testing::Mesh& mesh, std::span<const std::uint32_t> quotas)
+      : mesh_(mesh), view_(view_of(mesh_, GetParam())), faces_(view_.proper_face_count()) {
     memory_.resize(firmware::mesh_layers_bytes(view_, faces_));
     arena_ = Arena(memory_);
-    const auto made = firmware::make_mesh_layers(view_, faces_, kQuotas, firmware::Placement::kOptimal, arena_);
+    const auto made = firmware::make_mesh_layers(view_, faces_, quotas, firmware::Placement::kOptimal, arena_);
     status_ = made.status();
     if (!made.ok()) return;
     view_.layers = *made;
@@ -146,6 +176,8 @@ class MeshLayers : public ::testing::TestWithParam<Method> {
     return picture;
   }
 
+  void expect_no_hole_between_layers();
+
   testing::Mesh mesh_;
   MeshView view_;
   std::uint32_t faces_;
@@ -159,8 +191,6 @@ class MeshLayers : public ::testing::TestWithParam<Method> {
   std::vector<TexCoord> coordinates_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::Values(Method::kHalfEdge, Method::kQem, Method::kEdgeRemoval,
-                                                                Method::kVertexDeletion));
 
 TEST_P(MeshLayers, EveryLayerIsWhatTheMethodAloneMakes) {
   ASSERT_TRUE(status_.ok()) << status_.message << " " << status_.where;
@@ -211,8 +241,16 @@ TEST_P(MeshLayers, TooLittleMemoryIsSaidAndNothingIsKept) {
   EXPECT_GT(refused, 25u);
 }
 
-TEST_P(MeshLayers, MiddleLayersOpenNoHole) {
-  ASSERT_TRUE(status_.ok());
+class ChartLayers : public MeshLayers {
+ protected:
+  ChartLayers() : MeshLayers(charted_ball(), kFarQuotas) {}
+};
+
+TEST_P(ChartLayers, MiddleLayersOpenNoHole) { expect_no_hole_between_layers(); }
+TEST_P(MeshLayers, MiddleLayersOpenNoHole) { expect_no_hole_between_layers(); }
+
+void MeshLayers::expect_no_hole_between_layers() {
+  ASSERT_TRUE(status_.ok()) << status_.message;
   const firmware::VertexStreams given{mesh_.positions, mesh_.normals, mesh_.colours, mesh_.texture_coordinates};
   for (std::uint32_t n = 0; n + 1 < chain_.layer_count(); ++n)
     for (const float w : {0.25f, 0.5f, 1.0f}) {
@@ -237,6 +275,10 @@ TEST_P(MeshLayers, MiddleLayersOpenNoHole) {
       firmware::write_middle_layer(chain_, given, n, 0, {positions_, normals_, colours_, coordinates_});
     }
 }
+
+constexpr Method kMethods[] = {Method::kHalfEdge, Method::kQem, Method::kEdgeRemoval, Method::kVertexDeletion};
+INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::ValuesIn(kMethods));
+INSTANTIATE_TEST_SUITE_P(Methods, ChartLayers, ::testing::ValuesIn(kMethods));
 
 TEST(MeshLayersRefused, MeshesWithoutNormalsAndWithRepeatedVertices) {
   testing::Mesh mesh = body();
