@@ -129,7 +129,7 @@ TEST(HalfEdge, ACubeOfSixTexturesThinsToItsTwelveFaces) {
   EXPECT_EQ(thinned.mesh.face_count(), 12u);
   EXPECT_EQ(thinned.mesh.positions.size(), 24u) << "eight corners of three sides each";
   EXPECT_EQ(area_of(thinned.mesh), 24.0);
-  EXPECT_EQ(study::count_hole_edges(cube, thinned.mesh, 0), 0u);
+  EXPECT_EQ(study::count_holes(cube, thinned.mesh), 0u);
   EXPECT_EQ(study::count_seam_vertices(thinned.mesh), 8u);
   for (std::size_t i = 0; i < thinned.mesh.indices.size(); i += 3) {
     const PackedNormal normal = thinned.mesh.normals[thinned.mesh.indices[i]];
@@ -144,7 +144,7 @@ TEST(HalfEdge, ACreasedCylinderKeepsItsRimsAndItsSeam) {
     const Thinned thinned = thin_half_edge(cylinder, static_cast<std::size_t>(
                                                          static_cast<double>(cylinder.face_count()) * share));
     ASSERT_EQ(thinned.outcome.stop, StopReason::kQuotaReached) << share;
-    EXPECT_EQ(study::count_hole_edges(cylinder, thinned.mesh, 0), 0u) << share;
+    EXPECT_EQ(study::count_holes(cylinder, thinned.mesh), 0u) << share;
     EXPECT_EQ(bench::count_flipped_faces(cylinder, thinned.mesh, 0.05), 0u) << share;
     // Every face lies on the mantle or on one cap: no normal or coordinate of another side of a crease.
     for (std::size_t i = 0; i < thinned.mesh.indices.size(); i += 3) {
