@@ -15,9 +15,11 @@ constexpr std::uint32_t kLastEpoch = kEpochMask >> kEpochShift;
 constexpr std::uint32_t count_a(std::uint32_t mark) { return mark & kCountMask; }
 constexpr std::uint32_t count_b(std::uint32_t mark) { return (mark >> 4) & kCountMask; }
 
-// A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by 90 in all: no face ever
-// looks to the side that was its back (a face without area had none), to the tenth of a degree of a packed normal.
+// A face may turn by at most acos(0.2), about 78 degrees, in one collapse (arbitrary), and by less than 90 in all:
+// turned by 90, the side of a plate would lie on its front and look backwards. How much less is arbitrary, but more
+// than the tenth of a degree of a packed normal. A face without area had no side.
 constexpr float kLeastCosineSquared = 0.2f * 0.2f;
+constexpr float kLeastCosineInAllSquared = 0.02f * 0.02f;
 // Squared ratio of twice a face's area to the square of its longest side, below which it is a sliver: the height is
 // less than 1/100 of that side. A face may become one only where it was hardly better before: long thin parts (a rod of
 // 48 sides) are made of slivers, and every collapse there changes some of them a little. Arbitrary.
@@ -25,6 +27,12 @@ constexpr float kSliverSquared = 1e-4f;
 constexpr float kSliverWorseSquared = 0.25f;
 
 float larger(float a, float b) { return a > b ? a : b; }
+
+// `facing` is a unit vector, to a tenth of a degree, or nothing where the face had no area.
+bool looks_as_in_model(Vec3 facing, Vec3 after, float squared_after) {
+  const float along = dot(facing, after);
+  return along * (along < 0 ? -along : along) >= kLeastCosineInAllSquared * dot(facing, facing) * squared_after;
+}
 
 float longest_side_squared(Vec3 u, Vec3 v) {
   const Vec3 w = v - u;
@@ -227,7 +235,7 @@ bool CollapseRules::turns_a_face_at(std::uint32_t v, std::uint32_t other, Vec3 p
     const float squared_before = dot(before, before);
     const float squared_after = dot(after, after);
     const float along = dot(before, after);
-    if (dot(unpack(s.facing(c)), after) < 0) return true;
+    if (!looks_as_in_model(unpack(s.facing(c)), after, squared_after)) return true;
     // A face that had no area has no side to be turned to.
     if (squared_before > 0 && !(along > 0 && along * along > kLeastCosineSquared * squared_before * squared_after))
       return true;
@@ -254,7 +262,7 @@ bool CollapseRules::turns_a_face(const Neighbourhood& n, Vec3 position) const {
       const float squared_before = dot(before, before), squared_after = dot(after, after), along = dot(before, after);
       const float side = longest_side_squared(u, v);
       const std::uint32_t faces_on = along > 0 ? 1u : 0u;
-      const std::uint32_t as_in_model = dot(unpack(f.facing[i]), after) >= 0 ? 1u : 0u;
+      const std::uint32_t as_in_model = looks_as_in_model(unpack(f.facing[i]), after, squared_after) ? 1u : 0u;
       const std::uint32_t within_limit = along * along > kLeastCosineSquared * squared_before * squared_after ? 1u : 0u;
       const std::uint32_t no_sliver = squared_after >= kSliverSquared * side * side ? 1u : 0u;
       doubtful |= (faces_on & as_in_model & within_limit & no_sliver) ^ 1u;
