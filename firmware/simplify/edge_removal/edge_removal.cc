@@ -44,7 +44,7 @@ class EdgeRemover {
   void put(Corner edge);
   void remove_to_target();
   bool try_remove(const EdgeShape& shape);
-  bool try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t);
+  bool try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t, bool t_is_free);
   bool swallows_an_island(const Neighbourhood& n);
   void carry_out(const Neighbourhood& n, float t, Vec3 position);
   void refuse(Corner edge);
@@ -198,18 +198,21 @@ bool EdgeRemover::try_remove(const EdgeShape& shape) {
   n.a = shape.a;
   n.b = shape.b;
   if (!rules_.keeps_topology(n)) return false;
-  if (freedom == Freedom::kAtA) return try_remove_at(shape, n, 0.0f);
-  if (freedom == Freedom::kAtB) return try_remove_at(shape, n, 1.0f);
+  if (freedom == Freedom::kAtA) return try_remove_at(shape, n, 0.0f, false);
+  if (freedom == Freedom::kAtB) return try_remove_at(shape, n, 1.0f, false);
   const float t = place_on_edge(shape, settings().placement);
-  if (try_remove_at(shape, n, t)) return true;
+  if (try_remove_at(shape, n, t, true)) return true;
   if (settings().placement != EdgePlacement::kAutomatic) return false;
   const float other = place_on_edge(shape, settings().placement, true);
-  return other != t && try_remove_at(shape, n, other);
+  return other != t && try_remove_at(shape, n, other, true);
 }
 
-/// `n` is of the last call of keeps_topology.
-bool EdgeRemover::try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t) {
-  if (shape.border && !limit_movement(shape, outline_limit_, t)) return false;
+/// `n` is of the last call of keeps_topology. Where `t_is_free` the outline's limit may move `t`.
+bool EdgeRemover::try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t, bool t_is_free) {
+  if (shape.border) {
+    const float limit = outline_limit_;
+    if (t_is_free ? !limit_movement(shape, limit, t) : !(outline_change(shape, t) <= limit)) return false;
+  }
   const Vec3 a = surface_.position(n.a), b = surface_.position(n.b);
   const Vec3 position = t == 1 ? b : a + (b - a) * t;
   if (rules_.turns_a_face(n, position)) return false;

@@ -11,6 +11,8 @@
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/edge_removal/edge_removal.h"
 #include "tests/firmware/simplify/replay.h"
+#include "tests/study/seam_checks.h"
+#include "tests/study/seam_shapes.h"
 
 namespace usuzumi::testing {
 namespace {
@@ -171,6 +173,56 @@ TEST(EdgeRemovalTexture, AnIslandOfOneFaceIsNotSwallowed) {
   EXPECT_EQ(thinned.mesh.face_count(), 60u);
   EXPECT_EQ(patches_of(thinned.mesh).size(), 2u);
   expect_image_in_place(thinned.mesh, 2e-4f);
+}
+
+// A square pipe along a path of bends, open at both ends.
+Mesh pipe() {
+  constexpr Vec3 kPath[] = {{0, 0, 0}, {0, 0, 5}, {0.1f, 0, 5.6f}, {0.5f, 0, 6}, {1.2f, 0, 6.2f}, {6, 0, 6.2f}};
+  Mesh mesh;
+  for (const Vec3 at : kPath) {
+    const float lean = at.x > 1 ? 1.0f : at.x;  // across the path: from x towards -z
+    const Vec3 across = normalized({1 - lean, 0, -lean});
+    for (const float turn : {-1.0f, 1.0f})
+      for (const float up : {-1.0f, 1.0f})
+        mesh.positions.push_back(at + across * (0.3f * turn) + Vec3{0, 0.3f * up * turn, 0});
+  }
+  for (std::uint32_t ring = 0; ring + 4 < mesh.positions.size(); ring += 4)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = ring + i, b = ring + (i + 1) % 4;
+      mesh.indices.insert(mesh.indices.end(), {a, b, b + 4, a, b + 4, a + 4});
+    }
+  return mesh;
+}
+
+// At its mouths three boundaries meet in each corner: two of the outline, and the seam between two sides.
+TEST(EdgeRemovalTexture, ACornerOfBoundariesStaysThoughTheOutlineWouldChangeByMoreThanTheLimit) {
+  const Mesh shape = pipe();
+  int side = 0;
+  const Mesh mesh = patched(shape, [&](Vec3) { return side++ / 2 % 4; });
+  for (const float limit : {0.0f, 1e-4f, 1e-3f, 1e-2f, 1.0f}) {
+    SimplifyOptions options = options_of(8);
+    options.edge_removal.boundary_limit = limit;
+    const Thinned thinned = thin(mesh, options);
+    ASSERT_TRUE(thinned.status.ok());
+    for (std::size_t corner = 0; corner < shape.positions.size(); ++corner) {
+      if (corner >= 4 && corner + 4 < shape.positions.size()) continue;
+      const auto& left = thinned.mesh.positions;
+      EXPECT_NE(std::find(left.begin(), left.end(), shape.positions[corner]), left.end()) << corner << ' ' << limit;
+    }
+    EXPECT_LT(thinned.mesh.face_count(), limit < 1 ? 41u : 30u);
+  }
+}
+
+TEST(EdgeRemovalTexture, ARimIsNotLaidOverItsCap) {
+  const study::TexturedPart part = study::creased_cylinder(24, 12, 6);
+  Mesh mesh;
+  mesh.positions = part.positions;
+  mesh.indices = part.indices;
+  mesh.texture_coordinates = part.coordinates;
+  const Thinned thinned = thin(mesh, options_of(55));
+  ASSERT_TRUE(thinned.status.ok());
+  EXPECT_LT(thinned.mesh.face_count(), 100u);
+  EXPECT_EQ(study::count_flipped(mesh, thinned.mesh), 0u);
 }
 
 // A flat disc of `sides` sides on the outline and two rings inside.
