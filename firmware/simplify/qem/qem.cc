@@ -33,6 +33,10 @@ namespace {
 // by measuring.
 constexpr float kMostShift = 2;
 
+// A border's edges at a vertex may become this many times as long when a vertex inside the surface is drawn to it: the
+// mouth of a thin pipe is worth little by its error, and would be drawn in to wherever the pipe bends. Arbitrary.
+constexpr float kMostStretch = 2;
+
 Vec3 shift_to_keep_volume(const Neighbourhood& n, const EdgeCost& cost) {
   const float squared = dot(n.area_normal, n.area_normal);
   const float weight = weight_of(cost.quadric);
@@ -72,6 +76,7 @@ class QemSimplifier {
   void offer(std::span<const Corner> edges);
   void push_edge(Corner edge);
   bool try_collapse(Corner edge, const EdgeCost& cost);
+  bool stretches_border(const Neighbourhood& n, Vec3 position) const;
   void refuse(Corner edge);
   void allow_again_around(std::uint32_t v);
   void allow_again_at(std::uint32_t v);
@@ -172,6 +177,7 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
       position + (options_.placement == Placement::kOptimal ? shift_to_keep_volume(n, cost) : Vec3{});
   if (!(volume_kept == position) && !rules_.turns_a_face(n, volume_kept)) position = volume_kept;
   else if (rules_.turns_a_face(n, position)) return false;
+  if (stretches_border(n, position)) return false;
 
   AttributeShares shares;
   if (working_.attributes.any()) {
@@ -199,6 +205,23 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   for (std::uint32_t i = 0; i < collapsed.uncosted_count; ++i) push_edge(collapsed.uncosted[i]);
   if (n.touches_refused) allow_again_around(v);
   return true;
+}
+
+/// Where one end of the edge lies on a border, and the edge does not.
+bool QemSimplifier::stretches_border(const Neighbourhood& n, Vec3 position) const {
+  const auto is_singular = [this](std::uint32_t v) { return (surface_.places[v].mark & kSingular) != 0; };
+  if (is_singular(n.a) == is_singular(n.b)) return false;
+  const std::uint32_t v = is_singular(n.a) ? n.a : n.b;
+  float before = 0, after = 0;
+  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
+    for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
+      const std::uint32_t u = surface_.vertex_at(other);
+      if (!is_singular(u)) continue;
+      before += length(surface_.position(u) - surface_.position(v));
+      after += length(surface_.position(u) - position);
+    }
+  }
+  return after > kMostStretch * before;
 }
 
 void QemSimplifier::refuse(Corner edge) {

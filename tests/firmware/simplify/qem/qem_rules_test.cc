@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/firmware/simplify/simplify_fixture.h"
+#include "tests/study/seam_checks.h"
 
 namespace usuzumi::testing {
 namespace {
@@ -132,6 +134,32 @@ TEST(QemRules, BorderOfAFlatSheetKeepsItsOutline) {
   }
   EXPECT_NEAR(area, 12 * 7, 0.01);
   EXPECT_LT(thinned.outcome.max_error, 0.01f);
+}
+
+// A bracket beside much that is worth more: a thin square pipe, open at the near end, with a foot at the far one.
+TEST(QemRules, MouthOfAThinPipeIsNotDrawnIn) {
+  Mesh mesh = grid(30, 30);
+  for (Vec3& p : mesh.positions) p.z = 2 * std::sin(p.x * 1.1f) * std::cos(p.y * 0.9f);
+  const auto sheet = static_cast<std::uint32_t>(mesh.positions.size());
+  constexpr struct {
+    float z, width;
+  } kRings[] = {{0, 0.03f}, {0.2f, 0.03f}, {0.2f, 0.2f}, {0.25f, 0.2f}};
+  for (const auto& ring : kRings)
+    for (const auto& [x, y] : {std::pair{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}})
+      mesh.positions.push_back({50 + x * ring.width, y * ring.width, ring.z});
+  for (std::uint32_t ring = sheet; ring < sheet + 12; ring += 4)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = ring + i, b = ring + (i + 1) % 4;
+      mesh.indices.insert(mesh.indices.end(), {a, b, b + 4, a, b + 4, a + 4});
+    }
+  mesh.indices.insert(mesh.indices.end(), {sheet + 12, sheet + 13, sheet + 14, sheet + 12, sheet + 14, sheet + 15});
+  mesh.colours.assign(mesh.positions.size(), {1});
+  for (std::uint32_t v = sheet; v < mesh.positions.size(); ++v) mesh.colours[v] = {2};
+  for (const std::uint32_t target : {900u, 600u, 300u, 100u}) {
+    const Thinned thinned = thin(mesh, target);
+    ASSERT_TRUE(thinned.status.ok());
+    EXPECT_EQ(study::count_holes(mesh, thinned.mesh), 0u) << target;
+  }
 }
 
 TEST(QemRules, StripGivesUpItsCheapestEndEdgeIntoItsMiddle) {
