@@ -67,6 +67,7 @@ class HalfEdgeSimplifier {
   void merge_quadrics(const HalfEdge& half_edge);
   void tell_of_removed(const CollapsedEdge& collapsed);
   void tell_successions(std::uint32_t from, const WedgeMatching& matching);
+  bool joins_seam_ends(const Neighbourhood& n);
   void update_seams_around(std::uint32_t v);
   void refuse(Corner edge, std::uint32_t ways);
   void allow_again_around(std::uint32_t v);
@@ -180,7 +181,7 @@ std::uint32_t HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
   if (!rules_.keeps_topology(n)) return kBothRefused;  // whichever end goes, the same vertices become one
   const std::uint32_t this_way = half_edge.forward ? kForwardRefused : kBackwardRefused;
   if (rules_.turns_a_face(n, surface_.position(n.b))) return this_way;
-  const WedgeMatching matching(surface_, mesh_.groups, n.a, n.b);
+  const WedgeMatching matching(surface_, working_.attributes, mesh_.groups, n.a, n.b);
   if (!has_successors(half_edge, matching)) return this_way;
 
   if (options_.log != nullptr) options_.log->begin_step();
@@ -193,8 +194,7 @@ std::uint32_t HalfEdgeSimplifier::try_collapse(const HalfEdge& half_edge) {
   merge_quadrics(half_edge);
   costs_.merge_areas(n.a, n.b);
 
-  // Without a penalty no seam comes or goes.
-  if (half_edge.key >= kPenalised) update_seams_around(n.b);
+  if (half_edge.key >= kPenalised || joins_seam_ends(n)) update_seams_around(n.b);
   for (std::uint32_t i = 0; i < collapsed.uncosted_count; ++i) {
     allow_both_ways(collapsed.uncosted[i]);
     push_edge(collapsed.uncosted[i]);
@@ -269,6 +269,16 @@ void HalfEdgeSimplifier::merge_quadrics(const HalfEdge& half_edge) {
   const float weight = weight_of(q);
   const float error = weight > 0 ? std::sqrt(q.c / weight) : 0.0f;
   if (error > outcome_.max_error) outcome_.max_error = error;
+}
+
+/// Without a penalty no seam comes or goes but where one that ended at `n.b` meets one that ended at an apex, as the
+/// two edges between them have become one.
+bool HalfEdgeSimplifier::joins_seam_ends(const Neighbourhood& n) {
+  if (!seams_.is_seam(n.b)) return false;
+  bool joins = false;
+  for (std::uint32_t i = 0; i < n.apex_count; ++i)
+    if (seams_.is_seam(n.apexes[i])) joins = seams_.update(n.apexes[i]) || joins;
+  return joins;
 }
 
 /// Edges there may have lost their penalty: they come before whatever is left of the pass.

@@ -13,12 +13,14 @@ namespace usuzumi::firmware {
 /// Cost(vs -> vt) = Dist + a IsSeam(vs) (1 - IsSeam(vt)) + a IsSeam(vs) IsSeam(vt) (1 - IsSeam(vs, vt))
 ///                + 2a IsCross(vs) IsSeam(vt),
 /// with a = MaxDist (TriArea(vs) + TriArea(vt)). The pseudocode in the source's description asks for IsCross(vs) first
-/// and, where it holds, adds 2a alone, whatever vt is; we follow the claim, which adds.
+/// and, where it holds, adds 2a alone, whatever vt is; we follow the claim, which adds. It has no term for a seam that
+/// ends at vt: no wedge of vt continues vs's on both sides of it, so that going there tears as leaving a seam does, a.
 inline float half_edge_cost(float dist, float alpha, const SeamRelation& r) {
   float cost = dist;
   if (r.from_seam && !r.to_seam) cost += alpha;
   if (r.from_seam && r.to_seam && !r.edge_seam) cost += alpha;
   if (r.from_cross && r.to_seam) cost += 2 * alpha;
+  if (r.splits) cost += alpha;
   return cost;
 }
 

@@ -43,21 +43,30 @@ bool Seams::has_several_wedges(std::uint32_t v) const {
   return false;
 }
 
-void Seams::update(std::uint32_t v) {
+bool Seams::update(std::uint32_t v) {
+  const std::uint32_t before = words_[v] & (kSeam | kCross);
   words_[v] = 0;
-  if (surface_->first_corner(v) == kNoCorner) return;
-  const std::uint32_t edges = count_seam_edges(v);
-  if (edges > 0 || has_several_wedges(v)) words_[v] = kSeam | (edges != 2 ? kCross : 0);
+  if (surface_->first_corner(v) != kNoCorner) {
+    const std::uint32_t edges = count_seam_edges(v);
+    words_[v] = edges == 0 && !has_several_wedges(v) ? 0 : kSeam | (edges != 2 ? kCross : 0);
+  }
+  return words_[v] != before;
 }
 
-// Do the faces of corners `one` and `other` of a vertex, both on the edge to `other_end`, name different wedges?
-bool Seams::wedges_differ(Corner one, Corner other, std::uint32_t other_end) const {
+// Do the faces of corners `one` and `other` of a vertex, both on the edge to `other_end`, name different wedges there?
+bool Seams::wedges_differ_there(Corner one, Corner other, std::uint32_t other_end) const {
   const Surface& s = *surface_;
   const auto wedge_there = [&](Corner c) {
     const Corner next = next_in_face(c);
     return s.indices[corner_index(s.vertex_at(next) == other_end ? next : previous_in_face(c))];
   };
-  return s.indices[corner_index(one)] != s.indices[corner_index(other)] || wedge_there(one) != wedge_there(other);
+  return wedge_there(one) != wedge_there(other);
+}
+
+// At both ends?
+bool Seams::wedges_differ(Corner one, Corner other, std::uint32_t other_end) const {
+  return surface_->indices[corner_index(one)] != surface_->indices[corner_index(other)] &&
+         wedges_differ_there(one, other, other_end);
 }
 
 std::uint32_t Seams::count_seam_edges(std::uint32_t v) {
@@ -97,8 +106,14 @@ Seams::Edge Seams::edge(std::uint32_t a, std::uint32_t b) const {
     if (!runs_out && s.vertex_at(previous_in_face(c)) != b) continue;
     ++faces;
     out += runs_out ? 1u : 0u;
-    if (first == kNoCorner) first = c;
-    else result.is_seam = result.is_seam || wedges_differ(first, c, b);
+    if (first == kNoCorner) {
+      first = c;
+      continue;
+    }
+    const bool here = s.indices[corner_index(first)] != s.indices[corner_index(c)];
+    const bool there = wedges_differ_there(first, c, b);
+    result.is_seam = result.is_seam || (here && there);
+    if (here != there) result.seam_end = here ? a : b;
   }
   result.is_border = faces != 2 || out != 1;
   result.is_seam = result.is_seam || result.is_border;
@@ -117,7 +132,7 @@ bool Seams::folds(std::uint32_t a, std::uint32_t b) const {
 }
 
 Seams::Edge Seams::look_at_edge(std::uint32_t a, std::uint32_t b) const {
-  if (!is_seam(a) || !is_seam(b)) return {};
+  if (!touches(a, b)) return {};
   Edge result = edge(a, b);
   result.folds = result.is_seam && !(is_cross(a) && is_cross(b)) && folds(a, b);
   return result;
@@ -126,6 +141,7 @@ Seams::Edge Seams::look_at_edge(std::uint32_t a, std::uint32_t b) const {
 SeamRelation Seams::relation(std::uint32_t from, std::uint32_t to, const Edge& edge) const {
   SeamRelation r{.from_seam = is_seam(from), .from_cross = is_cross(from), .to_seam = is_seam(to)};
   r.edge_seam = edge.is_seam && (r.from_cross || !edge.folds);
+  r.splits = edge.seam_end == to;
   r.leaves_border = (surface_->places[from].mark & kSingular) != 0 && !edge.is_border;
   return r;
 }

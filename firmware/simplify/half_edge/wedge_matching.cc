@@ -12,9 +12,9 @@ std::uint32_t group_of(std::span<const MaterialGroup> groups, std::uint32_t wedg
 
 }  // namespace
 
-WedgeMatching::WedgeMatching(const Surface& surface, std::span<const MaterialGroup> groups, std::uint32_t from,
-                             std::uint32_t to)
-    : surface_(surface), groups_(groups), to_(to) {
+WedgeMatching::WedgeMatching(const Surface& surface, const WedgeAttributes& attributes,
+                             std::span<const MaterialGroup> groups, std::uint32_t from, std::uint32_t to)
+    : surface_(surface), attributes_(attributes), groups_(groups), to_(to) {
   if (surface.vertex_of_wedge == nullptr) {  // every wedge is its own vertex
     from_[0] = from;
     successor_[0] = to;
@@ -37,17 +37,39 @@ WedgeMatching::WedgeMatching(const Surface& surface, std::span<const MaterialGro
 std::uint32_t WedgeMatching::successor(std::uint32_t wedge) const {
   for (std::uint32_t i = 0; i < count_; ++i)
     if (from_[i] == wedge) return successor_[i];
-  return lowest_of_group(wedge);
+  return nearest_of_group(wedge);
 }
 
-std::uint32_t WedgeMatching::lowest_of_group(std::uint32_t wedge) const {
+std::uint32_t WedgeMatching::nearest_of_group(std::uint32_t wedge) const {
   const std::uint32_t group = group_of(groups_, wedge);
-  std::uint32_t lowest = kNone;
+  std::uint32_t nearest = kNone;
   for (Corner c = surface_.first_corner(to_); c != kNoCorner; c = surface_.next_corner_of(c)) {
     const std::uint32_t candidate = surface_.indices[corner_index(c)];
-    if (candidate < lowest && group_of(groups_, candidate) == group) lowest = candidate;
+    if (candidate == nearest || group_of(groups_, candidate) != group) continue;
+    if (nearest == kNone || is_nearer(wedge, candidate, nearest)) nearest = candidate;
   }
-  return lowest;
+  return nearest;
+}
+
+// Coordinates far out may be infinitely far from each other: such distances are equal.
+bool WedgeMatching::is_nearer(std::uint32_t wedge, std::uint32_t one, std::uint32_t other) const {
+  if (attributes_.texture_coordinates != nullptr) {
+    const TexCoord* t = attributes_.texture_coordinates;
+    const auto squared = [&](std::uint32_t w) {
+      return (t[w].s - t[wedge].s) * (t[w].s - t[wedge].s) + (t[w].t - t[wedge].t) * (t[w].t - t[wedge].t);
+    };
+    const float to_one = squared(one), to_other = squared(other);
+    if (to_one < to_other) return true;
+    if (to_one > to_other) return false;
+  }
+  if (attributes_.normals != nullptr) {
+    const Vec3 normal = unpack(attributes_.normals[wedge]);
+    const float along_one = dot(unpack(attributes_.normals[one]), normal);
+    const float along_other = dot(unpack(attributes_.normals[other]), normal);
+    if (along_one > along_other) return true;
+    if (along_one < along_other) return false;
+  }
+  return one < other;
 }
 
 }  // namespace usuzumi::firmware

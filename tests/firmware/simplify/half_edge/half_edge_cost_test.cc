@@ -21,6 +21,10 @@ TEST(HalfEdgeCost, IsTheClaimsFormulaTermByTerm) {
     const float expected = dist + alpha * s * (1 - t) + alpha * s * t * (1 - on) + 2 * alpha * cross * t;
     EXPECT_EQ(half_edge_cost(dist, alpha, r), expected) << bits;
     EXPECT_EQ(r.is_penalised(), expected > dist) << bits;
+    SeamRelation into_an_end = r;
+    into_an_end.splits = true;
+    EXPECT_EQ(half_edge_cost(dist, alpha, into_an_end), expected + alpha) << "not in the claim";
+    EXPECT_TRUE(into_an_end.is_penalised());
   }
 }
 

@@ -44,7 +44,11 @@ class PlainSeams {
       }
     }
     for (const auto& [edge, faces] : sides) {
-      if (faces.size() == 2 && faces[0] == faces[1]) continue;
+      std::set<Place> differing;
+      for (const auto& [place, wedge] : faces[0])
+        if (faces.size() == 2 && !faces[1].contains({place, wedge})) differing.insert(place);
+      if (differing.size() == 1) ends_at_.insert({edge, *differing.begin()});
+      if (faces.size() == 2 && differing.size() < 2) continue;
       seam_edges_.insert(edge);
       ++count_[edge.first];
       ++count_[edge.second];
@@ -54,6 +58,8 @@ class PlainSeams {
   bool is_cross(Place v) const { return is_seam(v) && count(v) != 2; }
   bool is_seam(Place a, Place b) const { return seam_edges_.contains(ends(a, b)); }
   bool is_penalised(Place from, Place to) const {
+    const auto end = ends_at_.find(ends(from, to));
+    if (end != ends_at_.end() && end->second == to) return true;
     if (!is_seam(from)) return false;
     if (!is_seam(to) || is_cross(from) || !is_seam(from, to)) return true;
     for (const Place& apex : apexes_.at(ends(from, to)))  // the seam would fold onto itself
@@ -68,6 +74,7 @@ class PlainSeams {
   std::map<Place, std::set<std::pair<float, float>>> wedges_;
   std::map<Ends, std::vector<Place>> apexes_;
   std::set<Ends> seam_edges_;
+  std::map<Ends, Place> ends_at_;  // edges whose faces disagree at this end alone
   std::map<Place, int> count_;
 };
 
@@ -143,7 +150,7 @@ TEST(HalfEdgeOrder, NoSeamBreaksWhileAnotherCollapseIsAllowed) {
     all.penalised += steps.penalised;
   }
   EXPECT_GT(all.free, 100u) << "or the shapes test nothing";
-  EXPECT_GT(all.penalised, 40u);
+  EXPECT_GT(all.penalised, 30u);
 }
 
 TEST(HalfEdgeOrder, ACubesSeamsOutlastItsSides) {
