@@ -66,8 +66,23 @@ bool is_seam(const Surface& s, Corner one, Corner following) {
          wedge_at(s, previous_in_face(one)) != wedge_at(s, next_in_face(following));
 }
 
+float squared_distance(TexCoord a, TexCoord b) { return (a.s - b.s) * (a.s - b.s) + (a.t - b.t) * (a.t - b.t); }
+
+// The faces of corners `before` and `after` name one wedge at the vertex and two at the other end of the edge between
+// them, where a seam ends. The polygon will have one of the two for both: it may where that shifts a texture a little,
+// as at the pole of a globe, but bends no shading.
+bool is_mere_pole(const Surface& s, const WedgeAttributes& a, Corner before, Corner after) {
+  const std::uint32_t at_vertex = wedge_at(s, after);
+  const std::uint32_t one = wedge_at(s, previous_in_face(before)), other = wedge_at(s, next_in_face(after));
+  if (a.texture_coordinates == nullptr) return false;
+  if (a.normals != nullptr && !(a.normals[one] == a.normals[other])) return false;
+  if (a.colours != nullptr && !(a.colours[one] == a.colours[other])) return false;
+  const TexCoord* t = a.texture_coordinates;
+  return squared_distance(t[one], t[other]) <= squared_distance(t[at_vertex], t[one]);
+}
+
 // Cuts the ring at its seams, and turns it so that it begins at one.
-bool cut(const Surface& s, Ring& ring) {
+bool cut(const Surface& s, const WedgeAttributes& attributes, Ring& ring) {
   ring.sector_count = 1;
   ring.sectors[0] = {.first_face = 0, .face_count = ring.face_count, .first_corner = 0, .corner_count = 0};
   if (s.vertex_of_wedge == nullptr) return true;
@@ -79,7 +94,8 @@ bool cut(const Surface& s, Ring& ring) {
     at[seams++] = i;
   }
   if (seams == 0) return true;
-  if (seams == 1) return false;
+  // At the vertex wedges change twice or not at all.
+  if (seams == 1) return is_mere_pole(s, attributes, ring.corners[at[0] == 0 ? n - 1 : at[0] - 1], ring.corners[at[0]]);
   Corner turned[kMostRingFaces];
   for (std::uint32_t i = 0; i < n; ++i) turned[i] = ring.corners[(at[0] + i) % n];
   for (std::uint32_t i = 0; i < n; ++i) ring.corners[i] = turned[i];
@@ -124,12 +140,12 @@ bool leads_on(const Surface& s, const Ring& ring, const Sector& sector) {
 
 }  // namespace
 
-bool gather_ring(const Surface& surface, std::uint32_t v, Ring& ring) {
+bool gather_ring(const Surface& surface, const WedgeAttributes& attributes, std::uint32_t v, Ring& ring) {
   Spokes spokes;
   if (!collect(surface, v, spokes) || !arrange(spokes, ring)) return false;
   if (ring.face_count + (ring.open ? 1 : 0) < 3 || ring.face_count + (ring.open ? 1 : 0) > kMostCorners) return false;
   ring.vertex = v;
-  if (!cut(surface, ring)) return false;
+  if (!cut(surface, attributes, ring)) return false;
   name_corners(surface, ring);
   for (std::uint32_t k = 0; ring.has_seam() && k < 2; ++k)
     if (ring.sectors[k].face_count == 1 && !leads_on(surface, ring, ring.sectors[k])) return false;

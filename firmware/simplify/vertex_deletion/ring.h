@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "firmware/simplify/attributes.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/vertex_deletion/fill_patterns.h"
 
@@ -44,7 +45,10 @@ struct Ring {
 /// not one fan or one half-fan (an edge of three faces, faces that run the same way along an edge, fans that touch in
 /// the vertex); one seam or more than two end at it, or any at a boundary vertex; or one side of its seam is a single
 /// face whose third edge does not lead on into the same sector.
-bool gather_ring(const Surface& surface, std::uint32_t v, Ring& ring);
+/// But a seam that comes no further than a neighbour, whose wedges there have one normal and colour and are no further
+/// apart on the texture than the vertex is from them (the pole of a globe), is none: the polygon has one of them there,
+/// and faces that keep a side of it keep theirs.
+bool gather_ring(const Surface& surface, const WedgeAttributes& attributes, std::uint32_t v, Ring& ring);
 
 /// True where a face has the edge a-b.
 bool has_edge(const Surface& surface, std::uint32_t a, std::uint32_t b);

@@ -161,7 +161,7 @@ void VertexDeletion::enter_stage(std::uint32_t stage) {
 
 void VertexDeletion::cost(DeletionEnergy& energy, std::uint32_t v) {
   Deletion best;
-  const bool any = gather_ring(surface_, v, ring_) && energy.least(ring_, nullptr, best);
+  const bool any = gather_ring(surface_, working_.attributes, v, ring_) && energy.least(ring_, nullptr, best);
   remember(v, any, best);
 }
 
@@ -181,7 +181,7 @@ void VertexDeletion::remember(std::uint32_t v, bool any, const Deletion& best) {
 /// Deletes `v`, or finds that it has to wait or to stay.
 void VertexDeletion::take_turn(DeletionEnergy& energy, std::uint32_t v) {
   Ring ring;
-  if (!gather_ring(surface_, v, ring) || is_back_of_a_face(surface_, ring)) {
+  if (!gather_ring(surface_, working_.attributes, v, ring) || is_back_of_a_face(surface_, ring)) {
     states_[v].stage = kNever;
     return;
   }

@@ -37,7 +37,7 @@ class RingSurface {
 
   std::optional<firmware::Ring> ring(std::uint32_t v) const {
     firmware::Ring ring;
-    if (!firmware::gather_ring(working_.surface, v, ring)) return std::nullopt;
+    if (!firmware::gather_ring(working_.surface, working_.attributes, v, ring)) return std::nullopt;
     return ring;
   }
 

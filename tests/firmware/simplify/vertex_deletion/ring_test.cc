@@ -101,5 +101,41 @@ TEST(Ring, SideOfASingleFaceNeedsItsOwnKindBeyond) {
   EXPECT_FALSE(RingSurface(coloured_faces(shape, {0, 1, 1, 1, 1, 1})).ring(0).has_value()) << "a border beyond";
 }
 
+// The ring around the origin whose first neighbour has a wedge for each of its two faces, `apart` on the texture.
+Mesh beside_a_pole(float apart) {
+  Mesh mesh = closed_ring({0, 0, 0}, kHexagon);
+  for (const Vec3 p : mesh.positions) mesh.texture_coordinates.push_back({p.x, p.y});
+  mesh.normals.assign(mesh.positions.size(), pack_normal({0, 0, 1}));
+  mesh.positions.push_back(mesh.positions[1]);
+  mesh.texture_coordinates.push_back({2, apart});
+  mesh.normals.push_back(mesh.normals[1]);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (mesh.indices[i] == 1) mesh.indices[i] = 7;
+  return mesh;
+}
+
+TEST(Ring, ASeamThatComesNoFurtherThanANeighbourAndHardlyMattersIsNone) {
+  const auto ring = RingSurface(beside_a_pole(1.9f)).ring(0);
+  ASSERT_TRUE(ring.has_value());
+  EXPECT_EQ(ring->sector_count, 1u);
+  EXPECT_EQ(ring->sectors[0].corner_count, 6u);
+  EXPECT_FALSE(RingSurface(beside_a_pole(2.1f)).ring(0).has_value()) << "further than the vertex is from it";
+}
+
+TEST(Ring, ASeamThatComesToANeighbourAndBendsShadingIsOne) {
+  Mesh creased = beside_a_pole(1);
+  creased.normals.back() = pack_normal({0, 1, 0});
+  EXPECT_FALSE(RingSurface(creased).ring(0).has_value());
+  Mesh painted = beside_a_pole(1);
+  painted.colours.assign(painted.positions.size(), {1});
+  ASSERT_TRUE(RingSurface(painted).ring(0).has_value());
+  painted.colours.back() = {2};
+  EXPECT_FALSE(RingSurface(painted).ring(0).has_value());
+  Mesh bare = beside_a_pole(1);
+  bare.texture_coordinates.clear();
+  bare.normals.back() = pack_normal({0, 1, 0});
+  EXPECT_FALSE(RingSurface(bare).ring(0).has_value());
+}
+
 }  // namespace
 }  // namespace usuzumi::testing
