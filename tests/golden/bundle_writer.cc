@@ -101,6 +101,9 @@ RunRecord run_record(Writer& out, const DeviceRun& run) {
   record.quota = run.thinning.quota.value;
   record.delete_policy = policy_record(out, run.thinning.delete_policy);
   record.collapse_policy = policy_record(out, run.thinning.collapse_policy);
+  record.layer_mode = static_cast<std::uint32_t>(run.thinning.layers.mode);
+  record.quotas = out.put_all(run.quotas_millionths);
+  record.boot_layers = out.put_all(run.boot_layers_millionths);
   record.angles = out.put_all(angles);
   record.rom = out.put(run.rom().bytes());
   return record;

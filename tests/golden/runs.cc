@@ -5,6 +5,10 @@
 #include <string>
 
 #include "hal/crc32.h"
+#include "sim/pack/layer_chains.h"
+#include "sim/pack/load_model.h"
+#include "sim/pack/prepare_textures.h"
+#include "sim/pack/rom_writer.h"
 #include "tests/support/desk_request.h"
 #include "tests/support/mesh_shapes.h"
 #include "tests/support/scene_meshes.h"
@@ -117,6 +121,47 @@ sim::BoardDescription with_ram(sim::BoardDescription board, std::size_t bytes) {
   return board;
 }
 
+constexpr std::uint32_t kEarthLayers[] = {1'000'000, 600'000, 360'000, 216'000};
+
+/// The sphere of US 6,396,952's example with its map, small enough for every board.
+testing::RomImage earth_rom(firmware::Method method, bool with_layers = false) {
+  sim::Model model = sim::load_model(USUZUMI_EARTH);
+  sim::prepare_textures(model, 128);
+  for (sim::Mesh& mesh : model.meshes) {
+    mesh.tags.level = 3;
+    mesh.tags.method = method;
+    if (with_layers) mesh.tags.layers = {std::begin(kEarthLayers), std::end(kEarthLayers)};
+  }
+  if (with_layers) sim::make_layer_chains(model);
+  return testing::RomImage::of(sim::write_container(model, {.texels = sim::TexelChoice::kRgb565}));
+}
+
+/// Steps of 60 % as the patent's example takes them.
+DeviceRun globe(const char* name, const char* note, firmware::Method method) {
+  DeviceRun run{name, note, with_ram(sim::host_sim(), 320 * kKiB), 240, 160, [method] { return earth_rom(method); }, {},
+                {0.3, 0.3, 0.3}, {}};
+  run.quotas_millionths = {600'000, 360'000, 216'000};
+  return run;
+}
+
+/// Between layers, as a quota falls.
+DeviceRun middle_layers() {
+  DeviceRun run = globe("run-12-middle-layers", "the globe between its layers, made by pack", firmware::Method::kQem);
+  run.rom = [] { return earth_rom(firmware::Method::kQem, true); };
+  run.thinning.layers.mode = firmware::LayerMode::kQuota;
+  run.quotas_millionths = {900'000, 500'000, 270'000};
+  return run;
+}
+
+/// Any number of faces by replay.
+DeviceRun boot_layers() {
+  DeviceRun run = globe("run-13-boot-layers", "the globe's collapses replayed; its layers are made at boot",
+                        firmware::Method::kHalfEdge);
+  run.quotas_millionths = {300'000, 800'000, 450'000};
+  run.boot_layers_millionths = {std::begin(kEarthLayers), std::end(kEarthLayers)};
+  return run;
+}
+
 firmware::ThinningSettings one_budget(std::uint32_t faces) {
   firmware::ThinningSettings settings;
   settings.quota = {QuotaKind::kFaces, faces};
@@ -148,10 +193,13 @@ Entry frame_entry(const DeviceRun& run, std::size_t frame, bool last, const sim:
           last ? run.note : "shown before it"};
 }
 
-const char* what_was_done(const firmware::MeshState& state) {
+const char* what_was_done(const firmware::MeshState& state, const firmware::CopyMesh& mesh) {
+  if (mesh.layered) return mesh.vertices_in_rom ? "from layers, vertices in ROM" : "from layers";
   if (state.build.outcome == firmware::BuildOutcome::kUnthinned) return "copied for want of RAM to thin it in";
   switch (state.decision.action) {
-    case firmware::Action::kCollapse: return state.build.collapsed ? "collapsed" : "copied, within its quota";
+    case firmware::Action::kCollapse: 
+      if (!state.build.collapsed) return "copied, within its quota";
+      return mesh.vertices_in_rom ? "collapsed, vertices in ROM" : "collapsed";
     case firmware::Action::kPoint: return "one point";
     case firmware::Action::kLine: return "one line";
     case firmware::Action::kKeep:
@@ -169,7 +217,7 @@ void append_meshes(const DeviceRun& run, const firmware::Thinning& thinning, std
     const std::string faces = std::to_string(mesh.faces) + " of " + std::to_string(state.faces) + " faces";
     entries.push_back({below(run, "mesh", n, 2), mesh.vertex_count, mesh.index_count,
                        crc32(kCrc32Start, {copy.block(n), copy.block_bytes(n)}),
-                       what_was_done(state) + (", " + faces)});
+                       what_was_done(state, mesh) + (", " + faces)});
   }
 }
 
@@ -243,24 +291,34 @@ std::span<const DeviceRun> all_runs() {
        chosen_and_random(),
        {0.3, 0.9},
        {}},
+      globe("run-08-globe-qem", "a globe with a map, 60 % of its faces three times over, by quadric error",
+            firmware::Method::kQem),
+      globe("run-09-globe-edge-removal", "the same by edge removal", firmware::Method::kEdgeRemoval),
+      globe("run-10-globe-half-edge", "the same by half-edge collapse", firmware::Method::kHalfEdge),
+      globe("run-11-globe-vertex-deletion", "the same by vertex deletion", firmware::Method::kVertexDeletion),
+      middle_layers(),
+      boot_layers(),
   };
   return runs;
 }
 
-RunPicture draw_run(const DeviceRun& run, std::span<const double> azimuths_rad, std::uint32_t threads) {
+RunPicture draw_run(const DeviceRun& run, std::size_t first_frame, std::uint32_t threads) {
   sim::DeskConfig config;
   config.board = run.board;
   config.width = run.width;
   config.height = run.height;
   config.threads = threads;
+  config.boot_layers_millionths = run.boot_layers_millionths;
   const testing::RomImage rom = run.rom();
   sim::Desk desk(config, rom.bytes(), run.name);
   RunPicture result;
-  for (std::size_t frame = 0; frame < azimuths_rad.size(); ++frame) {
-    firmware::FrameRequest request = testing::request_for(desk, azimuths_rad[frame]);
+  for (std::size_t frame = first_frame; frame < run.azimuths_rad.size(); ++frame) {
+    firmware::FrameRequest request = testing::request_for(desk, run.azimuths_rad[frame]);
     request.thinning = run.thinning;
+    if (!run.quotas_millionths.empty())
+      request.thinning.quota = {QuotaKind::kMillionths, run.quotas_millionths[frame]};
     const auto shown = desk.draw(request);
-    const bool last = frame + 1 == azimuths_rad.size();
+    const bool last = frame + 1 == run.azimuths_rad.size();
     result.entries.push_back(frame_entry(run, frame, last, shown.picture));
     if (!last) continue;
     result.picture = shown.picture;

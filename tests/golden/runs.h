@@ -29,6 +29,8 @@ struct DeviceRun {
   firmware::ThinningSettings thinning;
   std::vector<double> azimuths_rad;  // of the camera, one a frame; the last frame has the PNG
   std::vector<NotOn> not_on;
+  std::vector<std::uint32_t> quotas_millionths = {};  // one a frame, in place of the settings' quota; or none
+  std::vector<std::uint32_t> boot_layers_millionths = {};
 };
 
 std::span<const DeviceRun> all_runs();
@@ -43,8 +45,7 @@ struct RunPicture {
   std::vector<Entry> entries;
 };
 
-/// Boots a device and draws the frames of `azimuths_rad`. Throws sim::Error where the device fails.
-RunPicture draw_run(const DeviceRun& run, std::span<const double> azimuths_rad, std::uint32_t threads = 1);
-inline RunPicture draw_run(const DeviceRun& run) { return draw_run(run, run.azimuths_rad); }
+/// Boots a device and draws the run's frames from `first_frame` on. Throws sim::Error where the device fails.
+RunPicture draw_run(const DeviceRun& run, std::size_t first_frame = 0, std::uint32_t threads = 1);
 
 }  // namespace usuzumi::golden

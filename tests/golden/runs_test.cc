@@ -39,14 +39,13 @@ TEST_P(GoldenRun, EveryFrameAndThinnedMeshIsAsInTheManifest) {
 }
 
 TEST_P(GoldenRun, EveryRouteGivesTheSamePicture) {
-  const std::vector<double>& azimuths = GetParam().azimuths_rad;
   const RunPicture first = draw_run(GetParam());
   const std::uint32_t crc = sim::picture_crc32(first.picture);
   EXPECT_EQ(first.signature_crc, crc) << "what was sent and what arrived";
   EXPECT_EQ(first.vram_crc, crc) << "VRAM and panel";
   EXPECT_EQ(sim::picture_crc32(draw_run(GetParam()).picture), crc) << "second run";
-  EXPECT_EQ(sim::picture_crc32(draw_run(GetParam(), azimuths, 2).picture), crc) << "two threads";
-  EXPECT_EQ(sim::picture_crc32(draw_run(GetParam(), std::span(azimuths).last(1)).picture), crc)
+  EXPECT_EQ(sim::picture_crc32(draw_run(GetParam(), 0, 2).picture), crc) << "two threads";
+  EXPECT_EQ(sim::picture_crc32(draw_run(GetParam(), GetParam().azimuths_rad.size() - 1).picture), crc)
       << "without the frames before it";
 }
 

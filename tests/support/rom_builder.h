@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,13 @@ class RomImage {
     std::uint32_t bits;
     std::memcpy(&bits, &value, 4);
     word(bits);
+  }
+  /// ROM made elsewhere, whole words of it.
+  static RomImage of(std::span<const std::byte> bytes) {
+    RomImage rom;
+    rom.words_.resize(bytes.size() / 4);
+    std::memcpy(rom.words_.data(), bytes.data(), 4 * rom.words_.size());
+    return rom;
   }
   std::uint32_t size() const { return static_cast<std::uint32_t>(4 * words_.size()); }
   std::uint32_t& operator[](std::size_t byte_offset) { return words_[byte_offset / 4]; }

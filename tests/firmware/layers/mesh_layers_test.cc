@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -72,6 +73,41 @@ testing::Mesh charted_ball() {
     }
     for (const std::uint32_t v : part.indices) mesh.indices.push_back(first + v);
   }
+  return mesh;
+}
+
+/// A globe: at its poles and along one meridian positions repeat with texture coordinates of their own, those of the
+/// poles in one face each.
+testing::Mesh globe() {
+  constexpr std::uint32_t kMeridians = 16, kParallels = 9;
+  constexpr float kPi = 3.14159265f;
+  testing::Mesh mesh;
+  const auto add = [&](Vec3 on_ball, float s, float t) {
+    // The bump makes collapses differ in cost.
+    mesh.positions.push_back(on_ball * (1 + 0.1f * on_ball.x * on_ball.y));
+    mesh.normals.push_back(pack_normal(on_ball));
+    mesh.texture_coordinates.push_back({s, t});
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  };
+  for (std::uint32_t j = 1; j <= kParallels; ++j) {
+    const float t = static_cast<float>(j) / (kParallels + 1), latitude = kPi * (t - 0.5f);
+    for (std::uint32_t i = 0; i <= kMeridians; ++i) {
+      const float longitude = static_cast<float>(i % kMeridians) * 2 * kPi / kMeridians;
+      add({std::cos(latitude) * std::cos(longitude), std::sin(latitude), std::cos(latitude) * std::sin(longitude)},
+          static_cast<float>(i) / kMeridians, t);
+    }
+  }
+  const auto at = [](std::uint32_t j, std::uint32_t i) { return j * (kMeridians + 1) + i; };
+  for (std::uint32_t i = 0; i < kMeridians; ++i) {
+    for (std::uint32_t j = 0; j + 1 < kParallels; ++j)
+      for (const std::uint32_t v : {at(j, i), at(j + 1, i), at(j, i + 1), at(j, i + 1), at(j + 1, i), at(j + 1, i + 1)})
+        mesh.indices.push_back(v);
+    const float middle = (static_cast<float>(i) + 0.5f) / kMeridians;
+    const std::uint32_t south = add({0, -1, 0}, middle, 0), north = add({0, 1, 0}, middle, 1), top = kParallels - 1;
+    for (const std::uint32_t v : {south, at(0, i), at(0, i + 1), north, at(top, i + 1), at(top, i)})
+      mesh.indices.push_back(v);
+  }
+  mesh.colours.assign(mesh.positions.size(), rgba8(255, 255, 255));
   return mesh;
 }
 
@@ -177,6 +213,7 @@ class MeshLayers : public ::testing::TestWithParam<Method> {
   }
 
   void expect_no_hole_between_layers();
+  void expect_each_end_to_be_the_next_layer();
 
   testing::Mesh mesh_;
   MeshView view_;
@@ -203,8 +240,10 @@ TEST_P(MeshLayers, EveryLayerIsWhatTheMethodAloneMakes) {
   }
 }
 
-TEST_P(MeshLayers, AtItsEndAMiddleLayerIsTheNextLayer) {
-  ASSERT_TRUE(status_.ok());
+TEST_P(MeshLayers, AtItsEndAMiddleLayerIsTheNextLayer) { expect_each_end_to_be_the_next_layer(); }
+
+void MeshLayers::expect_each_end_to_be_the_next_layer() {
+  ASSERT_TRUE(status_.ok()) << status_.message;
   const firmware::VertexStreams given{mesh_.positions, mesh_.normals, mesh_.colours, mesh_.texture_coordinates};
   for (std::uint32_t n = 0; n + 1 < chain_.layer_count(); ++n) {
     const Picture next = replayed(chain_.layer(n + 1).step);
@@ -246,6 +285,13 @@ class ChartLayers : public MeshLayers {
   ChartLayers() : MeshLayers(charted_ball(), kFarQuotas) {}
 };
 
+class GlobeLayers : public MeshLayers {
+ protected:
+  GlobeLayers() : MeshLayers(globe(), kFarQuotas) {}
+};
+
+TEST_P(GlobeLayers, MiddleLayersOpenNoHole) { expect_no_hole_between_layers(); }
+TEST_P(GlobeLayers, AtItsEndAMiddleLayerIsTheNextLayer) { expect_each_end_to_be_the_next_layer(); }
 TEST_P(ChartLayers, MiddleLayersOpenNoHole) { expect_no_hole_between_layers(); }
 TEST_P(MeshLayers, MiddleLayersOpenNoHole) { expect_no_hole_between_layers(); }
 
@@ -279,6 +325,7 @@ void MeshLayers::expect_no_hole_between_layers() {
 constexpr Method kMethods[] = {Method::kHalfEdge, Method::kQem, Method::kEdgeRemoval, Method::kVertexDeletion};
 INSTANTIATE_TEST_SUITE_P(Methods, MeshLayers, ::testing::ValuesIn(kMethods));
 INSTANTIATE_TEST_SUITE_P(Methods, ChartLayers, ::testing::ValuesIn(kMethods));
+INSTANTIATE_TEST_SUITE_P(Methods, GlobeLayers, ::testing::ValuesIn(kMethods));
 
 TEST(MeshLayersRefused, MeshesWithoutNormalsAndWithRepeatedVertices) {
   testing::Mesh mesh = body();

@@ -59,6 +59,10 @@ bool in_range(std::uint32_t value, Enum last) {
   return value <= static_cast<std::uint32_t>(last);
 }
 
+std::span<const std::uint32_t> words_in(std::span<const std::byte> bytes, const Block& block) {
+  return {reinterpret_cast<const std::uint32_t*>(bytes.data() + block.offset), block.bytes / sizeof(std::uint32_t)};
+}
+
 bool policy_in(std::span<const std::byte> bytes, const PolicyRecord& record, firmware::Policy& policy) {
   if (!in_range(record.kind, firmware::PolicyKind::kRandom) || !is_table_of<std::uint32_t>(bytes, record.chosen))
     return false;
@@ -66,15 +70,16 @@ bool policy_in(std::span<const std::byte> bytes, const PolicyRecord& record, fir
   policy.area_threshold_px = std::bit_cast<float>(record.area_threshold_px);
   policy.random_millionths = record.random_millionths;
   policy.seed = record.seed;
-  policy.chosen = {reinterpret_cast<const std::uint32_t*>(bytes.data() + record.chosen.offset),
-                   record.chosen.bytes / sizeof(std::uint32_t)};
+  policy.chosen = words_in(bytes, record.chosen);
   return !std::isnan(policy.area_threshold_px);
 }
 
 bool settings_in(std::span<const std::byte> bytes, const RunRecord& record, firmware::ThinningSettings& settings) {
   if (record.thinning_enabled > 1 || !in_range(record.placement, firmware::Placement::kMidpoint) ||
-      !in_range(record.quota_kind, firmware::format::QuotaKind::kMillionths))
+      !in_range(record.quota_kind, firmware::format::QuotaKind::kMillionths) ||
+      !in_range(record.layer_mode, firmware::LayerMode::kAutomatic))
     return false;
+  settings.layers.mode = static_cast<firmware::LayerMode>(record.layer_mode);
   settings.enabled = record.thinning_enabled == 1;
   settings.placement = static_cast<firmware::Placement>(record.placement);
   settings.quota = {static_cast<firmware::format::QuotaKind>(record.quota_kind), record.quota};
@@ -180,6 +185,10 @@ Result<RunCase> Bundle::run(std::uint32_t n) const {
   if (!inside(bytes_, r.rom) || !inside(bytes_, r.angles) || r.angles.bytes % kDoubleBytes != 0 ||
       r.angles.bytes < 2 * kDoubleBytes || !finite_angles(bytes_, r.angles))
     return data_loss("bundle: no drawing data, or not two angles and more, at byte", details.offset);
+  if (!is_table_of<std::uint32_t>(bytes_, r.quotas) || !is_table_of<std::uint32_t>(bytes_, r.boot_layers))
+    return data_loss("bundle: quotas or layers beyond the end, at byte", details.offset);
+  run.quotas_millionths = words_in(bytes_, r.quotas);
+  run.boot_layers_millionths = words_in(bytes_, r.boot_layers);
   run.width = r.width;
   run.height = r.height;
   run.pixel_format = static_cast<command::PixelFormat>(r.pixel_format);
@@ -188,6 +197,8 @@ Result<RunCase> Bundle::run(std::uint32_t n) const {
   run.background = {r.background};
   run.elevation_rad = load<double>(bytes_, r.angles.offset);
   run.frame_count = r.angles.bytes / kDoubleBytes - 1;
+  if (!run.quotas_millionths.empty() && run.quotas_millionths.size() != run.frame_count)
+    return data_loss("bundle: not a quota for every frame, at byte", details.offset);
   run.rom = bytes_.subspan(r.rom.offset, r.rom.bytes);
   return run;
 }

@@ -25,7 +25,7 @@ namespace usuzumi::golden {
 namespace bundle {
 
 inline constexpr std::uint32_t kMagic = 0x42475A55;  // "UZGB"
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr BusAddress kDataBase = 0x10000000, kVramBase = 0x20000000;
 /// Longest texts, in bytes.
 inline constexpr std::uint32_t kNameMax = 48, kBoardMax = 32, kReasonMax = 120;
@@ -78,6 +78,9 @@ struct RunRecord {
   std::uint32_t thinning_enabled, placement;  // firmware::ThinningSettings
   std::uint32_t quota_kind, quota;
   PolicyRecord delete_policy, collapse_policy;
+  std::uint32_t layer_mode;  // firmware::LayerMode
+  Block quotas;              // one a frame, of millionths, in place of the quota above; or empty
+  Block boot_layers;         // words, DeviceConfig::boot_layers_millionths
   Block angles;  // doubles, low word first, radians: the camera's elevation, then its azimuth for each frame
   Block rom;     // drawing data
 };
@@ -105,6 +108,8 @@ struct RunCase {
   firmware::ThinningSettings thinning;
   double elevation_rad = 0;
   std::uint32_t frame_count = 0;
+  std::span<const std::uint32_t> quotas_millionths;  // frame_count, or none
+  std::span<const std::uint32_t> boot_layers_millionths;
   std::span<const std::byte> rom;
 };
 

@@ -39,13 +39,16 @@ std::span<std::byte> aligned(std::span<std::byte> memory) {
   return skip <= memory.size() ? memory.subspan(skip) : std::span<std::byte>{};
 }
 
-firmware::FrameRequest request_for(const RunCase& run, const firmware::Bounds& bounds, double azimuth_rad) {
+firmware::FrameRequest request_for(const RunCase& run, const firmware::Bounds& bounds, std::uint32_t frame,
+                                   double azimuth_rad) {
   firmware::FrameRequest request;
   const float aspect = static_cast<float>(run.width) / static_cast<float>(run.height);
   const firmware::Camera camera = firmware::view_of(bounds, azimuth_rad, run.elevation_rad, aspect);
   request.model_to_clip = firmware::model_to_clip(camera, aspect);
   request.lighting.background = run.background;
   request.thinning = run.thinning;
+  if (!run.quotas_millionths.empty())
+    request.thinning.quota = {firmware::format::QuotaKind::kMillionths, run.quotas_millionths[frame]};
   return request;
 }
 
@@ -55,6 +58,7 @@ Status boot(firmware::Device& device, const RunCase& run) {
   config.height = run.height;
   config.pixel_format = run.pixel_format;
   config.depth_format = run.depth_format;
+  config.boot_layers_millionths = run.boot_layers_millionths;
   const Status status = device.boot(config);
   const firmware::VramLayout& vram = device.vram();
   // The device makes do with smaller formats; other pixels are no golden.
@@ -105,7 +109,8 @@ Status play_run(const Bundle& bundle, std::uint32_t n, std::string_view name, co
   for (std::uint32_t frame = 0; frame < run->frame_count; ++frame) {
     firmware::FrameReport report;
     const double azimuth_rad = bundle.azimuth_rad(n, frame);
-    if (Status status = device.draw_frame(request_for(*run, bounds, azimuth_rad), report); !status.ok()) return status;
+    const firmware::FrameRequest request = request_for(*run, bounds, frame, azimuth_rad);
+    if (Status status = device.draw_frame(request, report); !status.ok()) return status;
     const Scanout& scanout = device.vram().scanout;
     const auto pixels = memory.vram.subspan(scanout.picture[device.shown_picture()] - kVramBase);
     boards::TextLine line;
