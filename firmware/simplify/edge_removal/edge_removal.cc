@@ -22,6 +22,7 @@
 #include "firmware/simplify/edge_removal/wedge_images.h"
 #include "firmware/simplify/initial_quadrics.h"
 #include "firmware/simplify/log_recorder.h"
+#include "firmware/simplify/refused_edges.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/working_surface.h"
 
@@ -47,9 +48,6 @@ class EdgeRemover {
   bool try_remove_at(const EdgeShape& shape, const Neighbourhood& n, float t, bool t_is_free);
   bool swallows_an_island(const Neighbourhood& n);
   void carry_out(const Neighbourhood& n, float t, Vec3 position);
-  void refuse(Corner edge);
-  void allow_again_around(std::uint32_t v);
-  void allow_again_at(std::uint32_t v);
 
   const EdgeRemovalSettings& settings() const { return options_.edge_removal; }
 
@@ -184,7 +182,7 @@ void EdgeRemover::remove_to_target() {
       heap_.set(now);
     } else {
       heap_.remove(top.edge);
-      if (!try_remove(shape)) refuse(top.edge);
+      if (!try_remove(shape)) refuse_edge(surface_, top.edge);
     }
   }
 }
@@ -273,36 +271,7 @@ void EdgeRemover::carry_out(const Neighbourhood& n, float t, Vec3 position) {
   for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c))
     for (const Corner half_edge : {c, previous_in_face(c)})
       if ((surface_.links[half_edge] & (kRepresentative | kRefused)) == kRepresentative) put(half_edge);
-  if (n.touches_refused) allow_again_around(v);
-}
-
-void EdgeRemover::refuse(Corner edge) {
-  surface_.links[edge] |= kRefused;
-  surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
-  surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
-}
-
-// A removal changes the faces of its vertex and of the neighbours, and with them what is allowed there.
-void EdgeRemover::allow_again_around(std::uint32_t v) {
-  allow_again_at(v);
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
-      const std::uint32_t u = surface_.vertex_at(other);
-      if ((surface_.places[u].mark & kTouchesRefused) != 0) allow_again_at(u);
-    }
-  }
-}
-
-void EdgeRemover::allow_again_at(std::uint32_t v) {
-  surface_.places[v].mark &= ~kTouchesRefused;
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner half_edge : {c, previous_in_face(c)}) {
-      std::uint32_t& flags = surface_.links[half_edge];
-      if ((flags & kRefused) == 0) continue;
-      flags &= ~kRefused;
-      put(half_edge);
-    }
-  }
+  if (n.touches_refused) allow_again_around(surface_, v, [this](Corner again) { put(again); });
 }
 
 }  // namespace

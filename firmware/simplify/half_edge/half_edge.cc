@@ -22,6 +22,7 @@
 #include "firmware/simplify/half_edge/wedge_matching.h"
 #include "firmware/simplify/initial_quadrics.h"
 #include "firmware/simplify/log_recorder.h"
+#include "firmware/simplify/refused_edges.h"
 #include "firmware/simplify/working_surface.h"
 
 namespace usuzumi::firmware {
@@ -71,7 +72,6 @@ class HalfEdgeSimplifier {
   void update_seams_around(std::uint32_t v);
   void refuse(Corner edge, std::uint32_t ways);
   void allow_again_around(std::uint32_t v);
-  void allow_again_at(std::uint32_t v);
 
   bool log_is_full() const { return options_.log != nullptr && options_.log->full(); }
   std::uint32_t refused_ways(Corner edge) const {
@@ -298,34 +298,19 @@ void HalfEdgeSimplifier::update_seams_around(std::uint32_t v) {
 
 void HalfEdgeSimplifier::refuse(Corner edge, std::uint32_t ways) {
   refused_[edge >> 2] = static_cast<std::uint8_t>(refused_[edge >> 2] | ways << (2 * (edge & 3)));
-  surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
-  surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
+  touch_refused(surface_, edge);
   if (refused_ways(edge) == kBothRefused) surface_.links[edge] |= kRefused;
   else push_edge(edge);
 }
 
-// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
-// The edges are taken up at once: by the next fill dearer ones would have gone.
+/// At once: by the next fill dearer edges would have gone.
 void HalfEdgeSimplifier::allow_again_around(std::uint32_t v) {
-  allow_again_at(v);
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
-      const std::uint32_t u = surface_.vertex_at(other);
-      if ((surface_.places[u].mark & kTouchesRefused) != 0) allow_again_at(u);
-    }
-  }
-}
-
-void HalfEdgeSimplifier::allow_again_at(std::uint32_t v) {
-  surface_.places[v].mark &= ~kTouchesRefused;
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner half_edge : {c, previous_in_face(c)}) {
-      if ((surface_.links[half_edge] & kRepresentative) == 0 || refused_ways(half_edge) == 0) continue;
-      surface_.links[half_edge] &= ~kRefused;
-      allow_both_ways(half_edge);
-      push_edge(half_edge);
-    }
-  }
+  visit_touched_around(surface_, v, [this](Corner edge) {
+    if ((surface_.links[edge] & kRepresentative) == 0 || refused_ways(edge) == 0) return;
+    surface_.links[edge] &= ~kRefused;
+    allow_both_ways(edge);
+    push_edge(edge);
+  });
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "firmware/simplify/qem/edge_cost.h"
 #include "firmware/simplify/qem/qem_scratch.h"
 #include "firmware/simplify/qem/texture_error.h"
+#include "firmware/simplify/refused_edges.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/working_surface.h"
 
@@ -77,9 +78,6 @@ class QemSimplifier {
   void push_edge(Corner edge);
   bool try_collapse(Corner edge, const EdgeCost& cost);
   bool stretches_border(const Neighbourhood& n, Vec3 position) const;
-  void refuse(Corner edge);
-  void allow_again_around(std::uint32_t v);
-  void allow_again_at(std::uint32_t v);
 
   EdgeCost cost_of_edge(Corner edge) {
     ++outcome_.work.edges_costed;
@@ -141,7 +139,7 @@ void QemSimplifier::collapse_next(EdgeKey key) {
     return;
   }
   cost.offset = refined_offset(cost);
-  if (!try_collapse(edge, cost)) refuse(edge);
+  if (!try_collapse(edge, cost)) refuse_edge(surface_, edge);
 }
 
 /// To its place in the batch, or in a later pass.
@@ -203,7 +201,8 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   if (options_.log != nullptr) recorder_.record(collapsed);
 
   for (std::uint32_t i = 0; i < collapsed.uncosted_count; ++i) push_edge(collapsed.uncosted[i]);
-  if (n.touches_refused) allow_again_around(v);
+  // At once: by the next fill dearer edges would have gone, a cube's corners before its flat sides.
+  if (n.touches_refused) allow_again_around(surface_, v, [this](Corner again) { push_edge(again); });
   return true;
 }
 
@@ -222,36 +221,6 @@ bool QemSimplifier::stretches_border(const Neighbourhood& n, Vec3 position) cons
     }
   }
   return after > kMostStretch * before;
-}
-
-void QemSimplifier::refuse(Corner edge) {
-  surface_.links[edge] |= kRefused;
-  surface_.places[surface_.vertex_at(edge)].mark |= kTouchesRefused;
-  surface_.places[surface_.vertex_at(next_in_face(edge))].mark |= kTouchesRefused;
-}
-
-// A collapse into `v` changed the faces of `v` and of its neighbours, and with them what is allowed at those vertices.
-// The edges are taken up at once: by the next fill dearer ones would have gone, a cube's corners before its flat sides.
-void QemSimplifier::allow_again_around(std::uint32_t v) {
-  allow_again_at(v);
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner other : {next_in_face(c), previous_in_face(c)}) {
-      const std::uint32_t u = surface_.vertex_at(other);
-      if ((surface_.places[u].mark & kTouchesRefused) != 0) allow_again_at(u);
-    }
-  }
-}
-
-void QemSimplifier::allow_again_at(std::uint32_t v) {
-  surface_.places[v].mark &= ~kTouchesRefused;
-  for (Corner c = surface_.first_corner(v); c != kNoCorner; c = surface_.next_corner_of(c)) {
-    for (const Corner half_edge : {c, previous_in_face(c)}) {
-      std::uint32_t& flags = surface_.links[half_edge];
-      if ((flags & kRefused) == 0) continue;
-      flags &= ~kRefused;
-      push_edge(half_edge);
-    }
-  }
 }
 
 }  // namespace
