@@ -35,16 +35,11 @@ struct Part {
   float area = 0, normal = 0, distance = kFar;
 };
 
-// `facing` is nothing where the face had no area.
-bool looks_as_in_model(Vec3 facing, Vec3 normal, float twice_area) {
-  return dot(normal, facing) >= kLeastCosine * twice_area || dot(facing, facing) == 0;
-}
-
-bool faces_on(const SectorShape& sector, const FillTriangle& t, Vec3 normal, float twice_area) {
-  if (t.b == t.a + 1 && !looks_as_in_model(sector.facing[t.a], normal, twice_area)) return false;
-  if (t.c == t.b + 1 && !looks_as_in_model(sector.facing[t.b], normal, twice_area)) return false;
+bool faces_on(const SectorShape& sector, const FillTriangle& t, Vec3 normal) {
+  if (t.b == t.a + 1 && dot(normal, sector.facing[t.a]) < 0) return false;
+  if (t.c == t.b + 1 && dot(normal, sector.facing[t.b]) < 0) return false;
   const bool last_side = t.a == 0 && t.c + 1u == sector.corner_count && !sector.closing_edge;
-  return !last_side || looks_as_in_model(sector.facing[t.c], normal, twice_area);
+  return !(last_side && dot(normal, sector.facing[t.c]) < 0);
 }
 
 bool is_taken(const std::uint32_t* taken, const FillTriangle& t) {
@@ -67,8 +62,7 @@ bool turns_on_texture(const SectorShape& sector, const FillTriangle& t) {
   if (!(twice_area > 0) || !(dot(normal, sector.mean_direction) > kLeastCosine * twice_area)) return part;
   const float longest = larger(larger(ab.squared, bc.squared), ac.squared);
   const float limit = smaller(kSliverSquared, kSliverWorseSquared * sector.worst_sliver);
-  if (squared < limit * (longest * longest) || !faces_on(sector, t, normal, twice_area)) return part;
-  if (turns_on_texture(sector, t)) return part;
+  if (squared < limit * (longest * longest) || !faces_on(sector, t, normal) || turns_on_texture(sector, t)) return part;
   part.allowed = true;
   part.area = twice_area * 0.5f;
   const Vec3 turn = normal * (1.0f / twice_area) - sector.mean_normal;

@@ -39,9 +39,8 @@ struct TakenEdges {
 /// - At boundary vertices and on seams a is the boundary's. On seams, the boundaries of two surfaces that stay glued,
 ///   (1) sums the absolute changes of both sides, and (3) has each side's own mean normal: a crease is not a bump.
 /// Fills are not taken where a new face
-/// - looks more than 78 degrees away (cosine 0.2, arbitrary) from the mean normal of its side of the ring, or from
-///   where what was at its outer edges looked in the model as given (Surface::facing, inherited along the polygon's
-///   sides);
+/// - looks more than 78 degrees away (cosine 0.2, arbitrary) from the mean normal of its side of the ring, or to the
+///   back of what was at its outer edges in the model as given (Surface::facing, inherited along the polygon's sides);
 /// - has no area, or is a sliver (height below 1/100 of the longest side) much worse than the ring's worst;
 /// - lies the other way round on the texture than all of its side of the ring did;
 /// - has an edge of `taken`.
