@@ -168,11 +168,17 @@ Status Thinning::update(const ThinningSettings& settings, const View& view, Cloc
   return summarize(report);
 }
 
-/// Builds what is wanted, and asks for less until everything that may not be left out has room.
+/// Builds what is wanted, and asks for less until everything that may not be left out has room. What is given up does
+/// not depend on what earlier frames have built: where RAM is short, all is built anew.
 void Thinning::build_all(Clock& clock) {
   quota_halvings_ = 0;
   layers_given_up_ = false;
+  const bool all = std::all_of(states_.begin(), states_.end(), [](const MeshState& state) { return state.wanted; });
   build_wanted(clock);
+  if (short_of_room() && !all) {
+    for (MeshState& state : states_) state.wanted = true;
+    build_wanted(clock);
+  }
   if (short_of_room() && any_layered()) {
     layers_given_up_ = true;
     want_collapses();
@@ -194,7 +200,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
     const MeshView mesh = view_of(n);
     Decision decision = decider.decide(mesh, state.faces);
     decide_layers(settings.layers.mode, n, decision);
-    state.wanted = !state.known || !state.decision.same_copy(decision);
+    state.wanted = !state.known || !same_copy(state.decision, decision);
     state.decision = decision;
     state.built = false;
     any = any || state.wanted;
@@ -213,7 +219,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
   return true;
 }
 
-/// Whether the mesh is drawn from its chain, and what quota it then has.
+/// Whether the mesh is drawn from its chain.
 void Thinning::decide_layers(LayerMode mode, std::uint32_t n, Decision& decision) {
   const LayeredMesh* layered = layers(n);
   if (decision.action != Action::kCollapse || layered == nullptr || !layered->sound) return;
@@ -221,8 +227,6 @@ void Thinning::decide_layers(LayerMode mode, std::uint32_t n, Decision& decision
   if (!chain_serves(chain, mode, decision)) return;
   decision.layered = true;
   decision.vertices_move = mode != LayerMode::kFaces;
-  if (mode == LayerMode::kAutomatic && !decision.quota_given)
-    decision.target_faces = chain.faces_at(chain.step_count());
 }
 
 /// Builds what is wanted: what must be there first, and within a priority the meshes that need most room to work in
@@ -296,13 +300,18 @@ std::uint32_t Thinning::move_along_layers(const LayerSettings& settings, const V
     switch (settings.mode) {
       case LayerMode::kFaces: place = place_of_faces(chain, decision.target_faces); break;
       case LayerMode::kQuota: place = place_of_layer(chain, layer_of_faces(chain, quota)); break;
-      case LayerMode::kAutomatic:
+      case LayerMode::kAutomatic: {
+        const float coarsest =
+            decision.quota_given ? layer_of_faces(chain, quota) : static_cast<float>(chain.layer_count() - 1);
         place = place_of_layer(chain, choose_layer(chain, screen_extent(layered.box, view), view, settings.attention,
-                                                   settings.choice, layer_of_faces(chain, quota), layered.memory));
+                                                   settings.choice, coarsest, layered.memory));
         break;
+      }
     }
-    if (settings.mode != LayerMode::kAutomatic) layered.memory = {};
-    const bool missed = decision.target_faces < chain.faces_at(chain.step_count());
+    const bool automatic = settings.mode == LayerMode::kAutomatic;
+    if (!automatic) layered.memory = {};
+    // Of LayerMode::kAutomatic the quota is a limit, not what is asked for.
+    const bool missed = !automatic && decision.target_faces < chain.faces_at(chain.step_count());
     states_[n].build.outcome = missed ? BuildOutcome::kQuotaNotReached : BuildOutcome::kBuilt;
     if (move_layered(view_of(n), layered, place, copy_, clock)) ++moved;
   }
@@ -335,6 +344,13 @@ bool Thinning::short_of_room() const {
   return false;
 }
 
+/// Where layers were given up, what was built instead of them counts too.
+bool Thinning::same_copy(Decision was, Decision is) const {
+  if (!was.same_copy(is)) return false;
+  if (layers_given_up_) was.layered = is.layered = false;
+  return was.same_copy(is);
+}
+
 bool Thinning::any_layered() const {
   for (const MeshState& state : states_)
     if (state.decision.layered) return true;
@@ -355,6 +371,7 @@ bool Thinning::can_halve_quotas() const {
 void Thinning::want_collapses() {
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
     if (priority(view_of(n)) >= kCollapsible || states_[n].build.outcome == BuildOutcome::kDropped ||
+        states_[n].build.outcome == BuildOutcome::kUnthinned ||
         (layers_given_up_ && copy_.present(n) && copy_.mesh(n).layered))
       states_[n].wanted = true;
 }

@@ -75,6 +75,9 @@ class Thinning {
 
   /// Decides every mesh anew and rebuilds those whose copy would differ. On return the copy is complete and sound.
   /// Meshes with layers are then moved along them: no mesh is built for that.
+  /// The copy is that of a device with plenty of memory or, where something was given up, of this one just started: no
+  /// earlier frame has a part in it, but for the layers of LayerMode::kAutomatic and normals that there was no room to
+  /// make.
   /// When memory runs short, meshes are first thinned without their layers, as their blocks are larger than a thinned
   /// copy. Then level-2 meshes that are to be drawn are left out: their authors allow their loss, but nobody fewer
   /// faces than a quota. Then the quotas of level 3 are halved, up to four times; then level-3 meshes
@@ -106,6 +109,7 @@ class Thinning {
   void build_all(Clock& clock);
   BuildReport build(const MeshView& mesh, const Decision& decision, Clock& clock);
   bool short_of_room() const;
+  bool same_copy(Decision was, Decision is) const;
   bool any_layered() const;
   bool decide_all(const ThinningSettings& settings, const View& view, Clock& clock);
   void build_wanted(Clock& clock);

@@ -23,6 +23,7 @@ using firmware::UpdateCause;
 using testing::container_rom;
 using testing::flat_view;
 using testing::hills;
+using testing::RomImage;
 using testing::TestMesh;
 using testing::ThinningBench;
 using Method = firmware::format::Method;
@@ -231,39 +232,58 @@ TEST(Layers, VerticesStayInRomWhereTheMethodMakesNoneAndNoneMoves) {
   EXPECT_EQ(bench.copy().block_bytes(0), 441 * 16 + 3 * kAll * 2 + 4u);
 }
 
-TEST(Layers, ShortOfRamTheMeshIsThinnedWithoutThem) {
-  // Enough to thin the hills in, too little for their block beside another mesh that must be there.
-  TestMesh kept = hills(70, 1);
-  kept.normals.assign(kept.positions.size(), pack_normal({0, 0, 1}));
-  const TestMesh layered = layered_hills(Method::kQem);
-  ThinningBench roomy(container_rom({kept, layered}), 4 << 20);
-  ASSERT_TRUE(roomy.update(with_faces(400)).ok());
-  ASSERT_TRUE(roomy.copy().mesh(1).layered);
-  const std::size_t both = roomy.copy().used_bytes();
-  std::size_t tables = 0;
-  bool given_up = false;
-  for (std::size_t ram = both; ram < both + 4096 && !given_up; ram += 64) {
-    ThinningBench bench(container_rom({kept, layered}), ram);
-    if (!bench.begin_status.ok() || !bench.update(with_faces(400)).ok()) continue;
-    given_up = bench.report.layers_given_up;
-    if (!given_up) break;
-    tables = ram;
-    EXPECT_FALSE(bench.copy().mesh(1).layered);
-    EXPECT_TRUE(bench.copy().present(1));
-    EXPECT_TRUE(bench.copy().sound());
-    // Nothing changed: no second try.
-    ASSERT_TRUE(bench.update(with_faces(400)).ok());
-    EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged);
+/// As much RAM as the blocks of eight meshes take, none for the tables: layers must be given up, and there is room
+/// enough to thin in.
+class ShortOfRam : public ::testing::Test {
+ protected:
+  static std::size_t blocks_bytes(const RomImage& rom) {
+    ThinningBench roomy(rom);
+    EXPECT_TRUE(roomy.update(with_faces(8 * 400)).ok());
+    EXPECT_EQ(roomy.report.meshes_layered, 8u);
+    return roomy.copy().used_bytes();
   }
-  EXPECT_TRUE(given_up) << tables;
+
+  RomImage rom = container_rom(std::vector<TestMesh>(8, layered_hills(Method::kQem)));
+  ThinningBench bench{rom, blocks_bytes(rom)};
+};
+
+TEST_F(ShortOfRam, MeshesAreThinnedWithoutTheirLayers) {
+  ASSERT_TRUE(bench.update(with_faces(8 * 400)).ok());
+  EXPECT_TRUE(bench.report.layers_given_up);
+  EXPECT_EQ(bench.report.meshes_layered, 0u);
+  EXPECT_EQ(bench.report.quota_halvings, 0u);
+  for (std::uint32_t n = 0; n < 8; ++n) EXPECT_EQ(bench.copy().mesh(n).faces, 400u);
+  EXPECT_TRUE(bench.copy().sound());
+  ASSERT_TRUE(bench.update(with_faces(8 * 400)).ok());
+  EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged) << "no second try";
+}
+
+TEST_F(ShortOfRam, MeshesFollowTheirQuotaAllTheSame) {
+  ASSERT_TRUE(bench.update(with_faces(8 * 400)).ok());
+  ASSERT_TRUE(bench.update(with_faces(8 * 300)).ok());
+  EXPECT_TRUE(bench.report.layers_given_up);
+  EXPECT_EQ(bench.report.faces_out, 8 * 300u);
+}
+
+TEST_F(ShortOfRam, WithoutAQuotaMeshesHaveHalfOfTheirFacesAsIfTheyHadNoLayers) {
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kAutomatic;
+  ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_TRUE(bench.report.layers_given_up);
+  EXPECT_EQ(bench.report.faces_out, 8 * kAll / 2);
+}
+
+/// A change names another vertex than the corner has.
+void spoil(TestMesh& mesh) {
+  const auto good = LayerChainView::of_checked(std::as_bytes(std::span(mesh.layers)));
+  const auto change = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(good.changes(5).data()) -
+                                               reinterpret_cast<const std::byte*>(mesh.layers.data()));
+  mesh.layers[change / 4 + 1] ^= 1;
 }
 
 TEST(Layers, AChainThatContradictsItselfIsNotUsed) {
   TestMesh mesh = layered_hills(Method::kQem);
-  const auto good = LayerChainView::of_checked(std::as_bytes(std::span(mesh.layers)));
-  const auto change = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(good.changes(5).data()) -
-                                               reinterpret_cast<const std::byte*>(mesh.layers.data()));
-  mesh.layers[change / 4 + 1] ^= 1;  // it names another vertex than the corner has
+  spoil(mesh);
   ThinningBench bench(container_rom({mesh}));
   ASSERT_TRUE(bench.update(with_faces(400)).ok());
   EXPECT_EQ(bench.report.chains_refused, 1u);
@@ -272,6 +292,20 @@ TEST(Layers, AChainThatContradictsItselfIsNotUsed) {
   EXPECT_TRUE(bench.copy().sound());
   ASSERT_TRUE(bench.update(with_faces(400)).ok());
   EXPECT_EQ(bench.report.cause, UpdateCause::kUnchanged);
+}
+
+TEST(Layers, AChainThatContradictsItselfChangesNothingInTheNextFrame) {
+  TestMesh mesh = layered_hills(Method::kQem);
+  spoil(mesh);
+  ThinningBench bench(container_rom({mesh}));
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kAutomatic;
+  for (const UpdateCause cause : {UpdateCause::kFirst, UpdateCause::kUnchanged}) {
+    ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+    EXPECT_EQ(bench.report.cause, cause);
+    EXPECT_LE(bench.report.faces_out, kAll / 2);
+    EXPECT_GT(bench.report.faces_out, kAll / 2 - 7) << "half of its faces, as of any mesh without a quota";
+  }
 }
 
 TEST(BootLayers, AreMadeForMeshesThatHaveNone) {
