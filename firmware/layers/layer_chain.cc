@@ -160,7 +160,7 @@ class LayerChainChecker {
   }
 
   /// A permutation cannot be checked without memory. Equal sums of the numbers and of their squares miss no one or two
-  /// wrong numbers; what they miss draws faces twice, and harms nothing.
+  /// wrong numbers; LayerReplay::check() finds what they miss.
   Status check_faces() {
     std::uint64_t sum = 0, squares = 0;
     for (std::size_t f = 0; f < view_.slots_.size(); ++f) {
@@ -246,8 +246,18 @@ LayerChainView LayerChainView::of_checked(std::span<const std::byte> bytes) {
   return view;
 }
 
+std::uint32_t LayerChainView::group_of(std::uint32_t slot) const {
+  std::uint32_t low = 0, high = group_count() - 1;
+  while (low < high) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (slot < groups_[middle].face_end) high = middle; else low = middle + 1;
+  }
+  return low;
+}
+
 void LayerReplay::begin() {
   step_ = 0;
+  std::memset(indices_, 0, std::size_t{3} * chain_.face_count() * index_bytes_);
   for (std::uint32_t g = 0; g < live_.size(); ++g) live_[g] = chain_.group_end(g) - chain_.group_begin(g);
 }
 
@@ -303,6 +313,9 @@ Status LayerReplay::check() {
   const auto contradiction = [](std::uint32_t step) {
     return Status{StatusCode::kDataLoss, "chain of layers contradicts itself in step", step};
   };
+  // A slot that no face was put in is as begin() left it; proper faces name three vertices.
+  for (std::uint32_t slot = 0; slot < chain_.face_count(); ++slot)
+    if (corner(3 * slot) == corner(3 * slot + 1)) return contradiction(0);
   while (step_ < chain_.step_count()) {
     const std::uint32_t s = step_, all = chain_.face_count();
     for (const format::LayerChange& change : chain_.changes(s)) {
@@ -312,8 +325,7 @@ Status LayerReplay::check() {
     for (std::uint32_t i = all - chain_.faces_at(s); i < all - chain_.faces_at(s + 1); ++i)
       if (live_[chain_.removed_group(i)]-- == 0) return contradiction(s);
     for (const format::LayerChange& change : chain_.changes(s)) {
-      std::uint32_t g = 0;
-      while (change.corner / 3 >= chain_.group_end(g)) ++g;
+      const std::uint32_t g = chain_.group_of(change.corner / 3);
       if (change.corner / 3 - chain_.group_begin(g) >= live_[g]) return contradiction(s);
     }
     ++step_;

@@ -55,6 +55,8 @@ class LayerChainView {
   std::span<const format::Layer> layers() const { return layers_; }
   std::uint32_t group_begin(std::uint32_t g) const { return g == 0 ? 0 : groups_[g - 1].face_end; }
   std::uint32_t group_end(std::uint32_t g) const { return groups_[g].face_end; }
+  /// Group of slot < face_count().
+  std::uint32_t group_of(std::uint32_t slot) const;
   /// Faces after `step` steps, 0 <= step <= step_count().
   std::uint32_t faces_at(std::uint32_t step) const {
     return step == 0 ? header_.face_count : steps_[step - 1].faces_after;
@@ -105,8 +107,8 @@ class LayerReplay {
   void begin();
   /// Proper face f < face_count() of the mesh as given, with vertices below vertex_count().
   void set_face(std::uint32_t f, const std::uint32_t vertices[3]);
-  /// From state 0 to the end and back: whether every change finds what it replaces and every group has the faces that
-  /// are removed from it. kDataLoss with the number of the step. Linear in the chain.
+  /// From state 0 to the end and back: whether every slot has a face, every change finds what it replaces, and every
+  /// group has the faces that are removed from it. kDataLoss with the number of the step. Linear in the chain.
   Status check();
 
   /// Goes to the state after `step` <= step_count() steps. Returns the corners written: the changes between.

@@ -5,6 +5,9 @@
 namespace usuzumi::firmware {
 namespace {
 
+/// Pixels. So near the eye that corners are thrown about, and later squares would not stay finite.
+constexpr float kLargestDiameter = 1e9f;
+
 float clamped(float v, float low, float high) { return v > low ? (v < high ? v : high) : low; }  // NaN becomes low
 
 float distance(float x, float y) { return std::sqrt(x * x + y * y); }
@@ -24,7 +27,7 @@ float worth_in_faces(const ScreenExtent& extent, const View& view, const Attenti
     const float off = distance(extent.centre_x - attention.x, extent.centre_y - attention.y);
     worth *= falling(settings.attention_weight, off / half_diagonal);
   }
-  if (memory.known && settings.speed_px > 0) {
+  if (memory.placed && settings.speed_px > 0) {
     const float speed = distance(extent.centre_x - memory.centre_x, extent.centre_y - memory.centre_y);
     worth *= settings.speed_px / (settings.speed_px + speed);
   }
@@ -72,9 +75,11 @@ ScreenExtent screen_extent(const Box& box, const View& view) {
     low_y = i == 0 || y < low_y ? y : low_y;
     high_y = i == 0 || y > high_y ? y : high_y;
   }
+  const float diameter = distance(high_x - low_x, high_y - low_y);
+  if (!(diameter <= kLargestDiameter)) return {.beyond_eye = true};
   extent.centre_x = (low_x + high_x) * 0.5f;
   extent.centre_y = (low_y + high_y) * 0.5f;
-  extent.diameter = distance(high_x - low_x, high_y - low_y);
+  extent.diameter = diameter;
   return extent;
 }
 
@@ -100,7 +105,7 @@ float choose_layer(const LayerChainView& chain, const ScreenExtent& extent, cons
     layer = with_hysteresis(asked, held, settings.hysteresis, coarsest);
     layer = clamped(layer, held - settings.largest_change, held + settings.largest_change);
   }
-  memory = {true, clamped(layer, 0, coarsest), extent.centre_x, extent.centre_y};
+  memory = {true, clamped(layer, 0, coarsest), !extent.beyond_eye, extent.centre_x, extent.centre_y};
   return memory.layer;
 }
 

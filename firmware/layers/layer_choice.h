@@ -30,7 +30,7 @@ Box box_of(std::span<const Vec3> positions);
 struct ScreenExtent {
   float centre_x = 0, centre_y = 0;
   float diameter = 0;      // diagonal of the rectangle around the projected corners
-  bool beyond_eye = false; // a corner is at or behind the viewer: as large as can be, and the rest means nothing
+  bool beyond_eye = false; // a corner is at or behind the viewer: as large as can be, and the rest is 0
 };
 
 ScreenExtent screen_extent(const Box& box, const View& view);
@@ -63,8 +63,9 @@ struct Attention {
 
 /// What is remembered of a mesh from frame to frame.
 struct LayerMemory {
-  bool known = false;  // there was a frame before
+  bool known = false;   // there was a frame before
   float layer = 0;
+  bool placed = false;  // it was before the viewer's eye, so that its speed can be told
   float centre_x = 0, centre_y = 0;
 };
 

@@ -218,6 +218,31 @@ TEST(LayerChainOpen, FacesRemovedFromTheWrongGroupAreFoundByReplaying) {
   EXPECT_EQ(replayed.replay.check().code, StatusCode::kDataLoss);
 }
 
+TEST(LayerChainOpen, SlotsWithoutAFaceAreFoundByReplaying) {
+  // 0, 4, 5 and 1, 2, 6 have the same sum and the same sum of squares, wherever they begin.
+  const testing::Mesh mesh = testing::icosphere(1);
+  const HandLog hand(mesh, HandLog::Kind::kHalfEdge, 78, 11);
+  constexpr std::uint32_t kTwoQuotas[] = {1'000'000, 975'000};
+  testing::BuiltChain chain = build_chain(hand.input(kTwoQuotas));
+  ASSERT_TRUE(chain.status.ok());
+  const auto changes = chain.view.changes(0);
+  std::uint32_t first = 0;  // of seven slots in which nothing changes
+  for (std::uint32_t slot = 0; slot < first + 7; ++slot)
+    for (const auto& change : changes)
+      if (change.corner / 3 == slot) first = slot + 1;
+  ASSERT_LT(first + 7, 78u);
+  std::uint32_t* const slots = chain.words.data() + 14 + 4 * 2 + 1 + 2;  // behind header, layers, group and step
+  ASSERT_EQ(slots[0], chain.view.slot(0));
+  for (std::uint32_t f = 0; f < 80; ++f)
+    for (const auto& [from, to] : {std::pair{0u, 1u}, {4u, 2u}, {5u, 6u}})
+      if (chain.view.slot(f) == first + from) slots[f] = first + to;
+  const auto bytes = std::as_bytes(std::span(chain.words)).first(chain.bytes);
+  const auto opened = LayerChainView::open(bytes, hand.input(kTwoQuotas).mesh);
+  ASSERT_TRUE(opened.ok()) << opened.status().message;
+  testing::Replayed replayed(*opened, mesh);
+  EXPECT_EQ(replayed.replay.check().code, StatusCode::kDataLoss);
+}
+
 /// What opens may be nonsense, but replaying it stays inside (the sanitizers watch).
 TEST(LayerChainOpen, SpoiledChainsAreRefusedOrReplayedInBounds) {
   std::mt19937 random(17);

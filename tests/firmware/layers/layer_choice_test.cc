@@ -168,5 +168,25 @@ TEST(LayerChoice, WhatReachesTheViewerIsDrawnWhole) {
   EXPECT_EQ(first_layer({0, 0, 1, true}), 0);
 }
 
+TEST(LayerChoice, WhatIsThrownFarAboutTheEyeIsDrawnWhole) {
+  View v = view();
+  v.model_to_clip.m[14] = -1;  // w = 1 - z
+  v.model_to_clip.m[15] = 1;
+  for (const float x : {1e3f, 1e8f}) {  // w = 6e-8: corners at 1e10 pixels and beyond
+    const ScreenExtent extent = firmware::screen_extent({{-x, -x, 0}, {x, x, 0.99999994f}}, v);
+    EXPECT_TRUE(extent.beyond_eye);
+    EXPECT_EQ(first_layer(extent), 0);
+  }
+}
+
+TEST(LayerChoice, WhatComesOutFromBehindTheEyeIsNotFast) {
+  LayerChoiceSettings settings;
+  settings.hysteresis = 0;
+  settings.largest_change = 10;
+  LayerMemory memory;
+  choose_layer(chain(), {0, 0, 0, true}, view(), {}, settings, 2, memory);
+  EXPECT_EQ(choose_layer(chain(), worth(200), view(), {}, settings, 2, memory), first_layer(worth(200)));
+}
+
 }  // namespace
 }  // namespace usuzumi
