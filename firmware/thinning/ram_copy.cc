@@ -133,7 +133,7 @@ void RamCopy::note_use(std::size_t bytes_of_free_memory) {
   if (used_ + bytes_of_free_memory > peak_) peak_ = used_ + bytes_of_free_memory;
 }
 
-bool RamCopy::sound() const {
+bool RamCopy::blocks_sound() const {
   std::size_t end = 0;
   std::uint32_t count = 0;
   for (std::uint32_t n = first_; n != mesh_max(); n = slots_[n].next) {
@@ -153,13 +153,24 @@ bool RamCopy::sound() const {
     if (m.index_format == command::IndexFormat::kNone) continue;
     const std::uint32_t size = index_bytes(m);
     if (!stream_inside(m.index_offset, std::uint64_t{m.index_count} * size, slot.bytes)) return false;
-    const std::byte* indices = block(n) + m.index_offset;
-    if (!(size == 2 ? indices_below<std::uint16_t>(indices, m.index_count, m.vertex_count)
-                    : indices_below<std::uint32_t>(indices, m.index_count, m.vertex_count)))
-      return false;
     if (!(m.layered ? live_add_up(group_words(n), m) : ends_rise_to(group_words(n), m.index_count / 3))) return false;
   }
   return count == present_ && end <= used_;
+}
+
+bool RamCopy::indices_sound(std::uint32_t n) const {
+  const CopyMesh& m = slots_[n].mesh;
+  if (m.index_format == command::IndexFormat::kNone) return true;
+  const std::byte* indices = block(n) + m.index_offset;
+  return index_bytes(m) == 2 ? indices_below<std::uint16_t>(indices, m.index_count, m.vertex_count)
+                             : indices_below<std::uint32_t>(indices, m.index_count, m.vertex_count);
+}
+
+bool RamCopy::sound() const {
+  if (!blocks_sound()) return false;
+  for (std::uint32_t n = 0; n < mesh_max(); ++n)
+    if (present(n) && !indices_sound(n)) return false;
+  return true;
 }
 
 }  // namespace usuzumi::firmware

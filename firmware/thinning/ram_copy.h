@@ -81,8 +81,12 @@ class RamCopy {
   /// Builders report the most of free_memory() that they touched.
   void note_use(std::size_t bytes_of_free_memory);
 
-  /// Every block inside the memory and apart from the others, every index below its mesh's vertex count, and the counts
-  /// consistent: what must hold before the engine is told of the copy.
+  /// Every block inside the memory and apart from the others, its streams inside it, and the counts consistent. Looks
+  /// at each mesh, not at what its block holds.
+  bool blocks_sound() const;
+  /// Every index of mesh n, present in a sound block, below its vertex count.
+  bool indices_sound(std::uint32_t n) const;
+  /// Both, of every mesh: what must hold before the engine is told of the copy.
   bool sound() const;
 
   std::size_t used_bytes() const { return used_; }

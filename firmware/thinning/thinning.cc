@@ -26,6 +26,11 @@ std::uint64_t whole_bytes(const MeshView& mesh) {
   return mesh.positions.size() * vertex + (mesh.indices.size() + 3) / 4 * 4;
 }
 
+/// The same with its chain, whatever the mode.
+std::uint64_t largest_block_bytes(const MeshView& mesh, std::span<const std::byte> chain) {
+  return layered_bytes(mesh, LayerChainView::of_checked(chain), true, false);
+}
+
 /// What thinning a mesh by its method takes at most beside the copies of all meshes.
 std::uint64_t thinning_bytes(const MeshView& mesh, std::uint32_t faces) {
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
@@ -44,7 +49,7 @@ bool chain_serves(const LayerChainView& chain, LayerMode mode, const Decision& d
 /// As if layer 0 had been drawn there.
 LayerMemory memory_of_whole(const Box& box, const View& view) {
   const ScreenExtent extent = screen_extent(box, view);
-  return {true, 0, extent.centre_x, extent.centre_y};
+  return {true, 0, !extent.beyond_eye, extent.centre_x, extent.centre_y};
 }
 
 unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
@@ -69,6 +74,8 @@ Thinning::Priority Thinning::priority(const MeshView& mesh) {
 Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus,
                        std::span<const std::uint32_t> boot_layers) {
   begun_ = layers_given_up_ = false;
+  layered_ = {};
+  copy_ = {};
   quota_halvings_ = 0;
   totals_ = {};
   faces_in_ = 0;
@@ -103,7 +110,8 @@ Status Thinning::begin_layers(Arena& ram, std::span<const std::uint32_t> boot_la
   for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
     const MeshView mesh = view_of(n);
     if (may_have_layers(mesh)) states_[n].layered_slot = count++;
-    needed += whole_bytes(mesh);
+    const std::uint64_t block = mesh.layers.empty() ? 0 : largest_block_bytes(mesh, mesh.layers);
+    needed += std::max(whole_bytes(mesh), block);
     if (mesh.level == Level::kCollapse)
       largest_thinning = std::max(largest_thinning, thinning_bytes(mesh, states_[n].faces));
   }
@@ -130,8 +138,7 @@ std::uint64_t Thinning::make_layers(const MeshView& mesh, std::span<const std::u
   const std::size_t mark = ram.used();
   const auto made = make_mesh_layers(mesh, states_[mesh.number].faces, quotas, Placement::kOptimal, ram);
   if (!made.ok()) return 0;  // it is thinned by its method whenever asked for
-  const std::uint64_t whole = whole_bytes(mesh);
-  const std::uint64_t block = layered_bytes(mesh, LayerChainView::of_checked(*made), true, false);
+  const std::uint64_t whole = whole_bytes(mesh), block = largest_block_bytes(mesh, *made);
   const std::uint64_t more = block > whole ? block - whole : 0;
   if (needed + more > ram.available()) {
     ram.rewind(mark);
@@ -391,6 +398,15 @@ void Thinning::count_decisions_and_builds(ThinningReport& report) const {
   }
 }
 
+/// Whether the copy may be drawn. Indices are looked at where they were built: replay puts in their place others that
+/// LayerChainView::open() has seen.
+bool Thinning::sound() const {
+  if (!copy_.blocks_sound()) return false;
+  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n)
+    if (states_[n].built && copy_.present(n) && !copy_.indices_sound(n)) return false;
+  return true;
+}
+
 Status Thinning::summarize(ThinningReport& report) const {
   count_decisions_and_builds(report);
   report.meshes_in = data_->mesh_max();
@@ -403,7 +419,7 @@ Status Thinning::summarize(ThinningReport& report) const {
     if (!layered.sound) ++report.chains_refused;
   report.copy_bytes = copy_.used_bytes();
   report.peak_bytes = copy_.peak_bytes();
-  Status status = copy_.sound() ? ok_status() : Status{StatusCode::kDataLoss, "RAM copy is not sound", 0};
+  Status status = sound() ? ok_status() : Status{StatusCode::kDataLoss, "RAM copy is not sound", 0};
   for (std::uint32_t n = data_->mesh_max(); n-- > 0;) {
     switch (states_[n].build.outcome) {
       case BuildOutcome::kBuilt: break;

@@ -119,6 +119,7 @@ class Thinning {
   bool can_halve_quotas() const;
   void want_collapses();
   void count_decisions_and_builds(ThinningReport& report) const;
+  bool sound() const;
   Status summarize(ThinningReport& report) const;
 
   const DrawingData* data_ = nullptr;

@@ -32,8 +32,8 @@ using QuotaKind = firmware::format::QuotaKind;
 constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
 constexpr std::uint32_t kAll = 800;  // faces of hills(20)
 
-TestMesh smooth_hills(Method method) {
-  TestMesh mesh = hills(20, 3);
+TestMesh smooth_hills(Method method, std::uint32_t n = 20) {
+  TestMesh mesh = hills(n, 3);
   mesh.method = method;
   for (const Vec3& p : mesh.positions)
     mesh.normals.push_back(pack_normal(normalized(Vec3{-0.4f * p.x, 0.3f * p.y * p.y, 1})));
@@ -342,6 +342,24 @@ TEST(BootLayers, LeaveRoomForEveryMesh) {
     with_one = with_one || bench.report.meshes_layered == 1;
   }
   EXPECT_TRUE(with_one) << "no size had room for one chain alone";
+}
+
+TEST(BootLayers, LeaveRoomForTheLayersInRom) {
+  // So many that room for thinning one hides nothing.
+  std::vector<TestMesh> meshes(200, testing::with_layers(smooth_hills(Method::kQem, 8), kQuotas));
+  for (int i = 0; i < 20; ++i) meshes.push_back(smooth_hills(Method::kQem, 8));
+  const RomImage rom = container_rom(meshes);
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kQuota;
+  bool with_all = false;
+  for (std::size_t ram = 650'000; ram < 1'000'000; ram += 10'000) {
+    ThinningBench without(rom, ram), bench(rom, ram, false, kQuotas);
+    ASSERT_TRUE(without.update(settings).ok()) << ram;
+    ASSERT_TRUE(bench.update(settings).ok()) << ram;
+    EXPECT_EQ(bench.report.layers_given_up, without.report.layers_given_up) << ram;
+    with_all = with_all || bench.report.meshes_layered == 220;
+  }
+  EXPECT_TRUE(with_all);
 }
 
 TEST(BootLayers, QuotasThatDoNotFallAreRefused) {

@@ -294,7 +294,7 @@ TEST_P(RandomSettings, LeaveTheCopyThatTheyAskForWhateverCameBefore) {
   const std::span<const std::uint32_t> boot_layers =
       with_boot_layers ? std::span<const std::uint32_t>(kQuotas) : std::span<const std::uint32_t>{};
   std::uint32_t compared = 0, short_of_ram = 0;
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     ThinningBench bench(rom, ram_bytes, rom_on_bus, boot_layers);
     ASSERT_TRUE(bench.begin_status.ok());
     RandomFrames frames(seed, data->mesh_max());
@@ -316,11 +316,11 @@ TEST_P(RandomSettings, LeaveTheCopyThatTheyAskForWhateverCameBefore) {
       if (HasFailure()) return;
     }
   }
-  EXPECT_GT(compared, 150u);
+  EXPECT_GT(compared, 100u);
   if (ram_bytes == kPlenty) {
     EXPECT_EQ(short_of_ram, 0u);
   } else {
-    EXPECT_GT(short_of_ram, 20u) << "RAM is not short enough for this test";
+    EXPECT_GT(short_of_ram, 10u) << "RAM is not short enough for this test";
     EXPECT_LT(short_of_ram, compared) << "RAM is too short for this test";
   }
 }
