@@ -40,6 +40,17 @@ T* data_or_null(std::span<T> stream) {
 
 }  // namespace
 
+void lay_out_vertices(ScratchLayout& layout, std::uint32_t vertex_count, SurfaceMemory& memory) {
+  layout.array(memory.vertex_of_wedge, vertex_count);
+  layout.array(memory.places, vertex_count);
+  layout.array(memory.vertices, vertex_count);
+}
+
+void lay_out_links(ScratchLayout& layout, std::uint32_t vertex_count, std::uint32_t face_count, SurfaceMemory& memory) {
+  layout.array_under_the_rest(memory.weld_table, weld_table_slots(vertex_count));
+  layout.array(memory.links, std::uint64_t{face_count} * 4);
+}
+
 void build_surface(WorkingMesh& mesh, const SurfaceMemory& memory, WorkingSurface& out) {
   Surface& surface = out.surface;
   surface.places = memory.places.data();

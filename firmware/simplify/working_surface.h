@@ -1,10 +1,12 @@
 // From a working mesh to the connectivity that a method works on, and back: the same for every method.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "firmware/simplify/attributes.h"
+#include "firmware/simplify/scratch_layout.h"
 #include "firmware/simplify/simplify.h"
 #include "firmware/simplify/surface.h"
 
@@ -19,6 +21,14 @@ struct SurfaceMemory {
   std::span<std::uint32_t> links;       // 4 per face
   std::span<std::uint32_t> texture_places = {};  // see find_texture_places() (weld.h); empty where nobody asks
 };
+
+inline constexpr std::size_t kScratchAlignment = 16;  // of each array, by the methods that ask for no more
+
+/// vertex_of_wedge, places and vertices.
+void lay_out_vertices(ScratchLayout& layout, std::uint32_t vertex_count, SurfaceMemory& memory);
+
+/// weld_table, and in its place links and all that `layout` is given after: of use when the surface is built.
+void lay_out_links(ScratchLayout& layout, std::uint32_t vertex_count, std::uint32_t face_count, SurfaceMemory& memory);
 
 struct WorkingSurface {
   Surface surface;

@@ -1,51 +1,31 @@
 #include "firmware/simplify/edge_removal/removal_scratch.h"
 
 #include "firmware/simplify/edge_removal/edge_removal.h"
-#include "firmware/simplify/weld.h"
+#include "firmware/simplify/scratch_layout.h"
 
 namespace usuzumi::firmware {
 namespace {
 
-constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
-
-// Counts from ROM may ask for more bytes than a 32-bit device can address: sizes are 64 bits wide until they are
-// compared.
-constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
-
-constexpr std::uint64_t links_and_heap_bytes(std::uint32_t vertex_count, std::uint64_t face_count) {
-  const std::uint64_t later =
-      aligned(face_count * 16) + aligned(face_count * 3 * sizeof(EdgeLengthKey)) + aligned(face_count * 16);
-  const std::uint64_t table = weld_table_slots(vertex_count) * 4;
-  return later > table ? later : table;
+void lay_out(ScratchLayout& layout, std::uint32_t vertex_count, std::uint32_t face_count, RemovalScratch& scratch) {
+  lay_out_vertices(layout, vertex_count, scratch.surface);
+  layout.array(scratch.vertices, vertex_count);
+  lay_out_links(layout, vertex_count, face_count, scratch.surface);
+  layout.array(scratch.heap_slots, std::uint64_t{face_count} * 3);
+  layout.array(scratch.heap_place_of, std::uint64_t{face_count} * 4);
 }
 
 }  // namespace
 
 std::uint64_t edge_removal_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  return kAlignment + aligned(std::uint64_t{vertex_count} * 4) + aligned(std::uint64_t{vertex_count} * sizeof(Place)) +
-         aligned(std::uint64_t{vertex_count} * sizeof(Vertex)) +
-         aligned(std::uint64_t{vertex_count} * sizeof(RemovalVertex)) + links_and_heap_bytes(vertex_count, face_count);
+  RemovalScratch scratch;
+  return layout_bytes(kScratchAlignment,
+                      [&](ScratchLayout& layout) { lay_out(layout, vertex_count, face_count, scratch); });
 }
 
 bool carve_removal_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count,
                            RemovalScratch& scratch) {
-  const std::uint64_t bytes = edge_removal_scratch_bytes(vertex_count, face_count) - kAlignment;
-  if (bytes > arena.available()) return false;
-  const std::span<std::byte> memory = arena.allocate<std::byte>(static_cast<std::size_t>(bytes), kAlignment);
-  if (memory.data() == nullptr) return false;
-  Arena rest(memory);  // from here on everything fits: the sizes above are the sum of these
-  scratch.surface.vertex_of_wedge = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
-  scratch.surface.places = rest.allocate<Place>(vertex_count, kAlignment);
-  scratch.surface.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
-  scratch.vertices = rest.allocate<RemovalVertex>(vertex_count, kAlignment);
-  const std::size_t mark = rest.used();
-  scratch.surface.weld_table =
-      rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
-  rest.rewind(mark);
-  scratch.surface.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
-  scratch.heap_slots = rest.allocate<EdgeLengthKey>(std::size_t{face_count} * 3, kAlignment);
-  scratch.heap_place_of = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
-  return true;
+  return carve_layout(arena, kScratchAlignment,
+                      [&](ScratchLayout& layout) { lay_out(layout, vertex_count, face_count, scratch); });
 }
 
 }  // namespace usuzumi::firmware

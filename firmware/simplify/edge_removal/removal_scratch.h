@@ -12,7 +12,7 @@
 namespace usuzumi::firmware {
 
 struct RemovalScratch {
-  SurfaceMemory surface;  // the weld table shares its memory with `links` and what follows, which come to be used later
+  SurfaceMemory surface;
   std::span<RemovalVertex> vertices;
   std::span<EdgeLengthKey> heap_slots;     // as many as there can be edges: three a face
   std::span<std::uint32_t> heap_place_of;  // by half-edge, four a face

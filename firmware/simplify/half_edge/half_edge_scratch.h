@@ -12,7 +12,7 @@
 namespace usuzumi::firmware {
 
 struct HalfEdgeScratch {
-  SurfaceMemory surface;  // the weld table shares its memory with `links` and what follows, which come to be used later
+  SurfaceMemory surface;
   std::span<std::uint32_t> seam_words;  // one per vertex
   std::span<float> areas;               // one per vertex
   std::span<std::uint8_t> refused;      // one per face

@@ -13,7 +13,7 @@
 namespace usuzumi::firmware {
 
 struct QemScratch {
-  SurfaceMemory surface;  // the weld table shares its memory with `links` and what follows, which come to be used later
+  SurfaceMemory surface;
   std::span<TextureFit> texture_fits;  // vertex_count with texture coordinates, else none; so surface.texture_places
   std::span<EdgeKey> candidates;
   std::span<EdgeKey> queue;

@@ -1,50 +1,32 @@
 #include "firmware/simplify/vertex_deletion/vertex_deletion_scratch.h"
 
+#include "firmware/simplify/scratch_layout.h"
 #include "firmware/simplify/vertex_deletion/vertex_deletion.h"
-#include "firmware/simplify/weld.h"
 
 namespace usuzumi::firmware {
 namespace {
 
-constexpr std::size_t kAlignment = 16;  // of each array, so that the sizes add up whatever the arena's start
-
-// Counts from ROM may ask for more bytes than a 32-bit device can address: sizes are 64 bits wide until they are
-// compared.
-constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
-
-constexpr std::uint64_t links_and_heap_bytes(std::uint64_t vertex_count, std::uint64_t face_count) {
-  const std::uint64_t later = aligned(face_count * 16) + aligned(vertex_count * sizeof(VertexState)) +
-                              aligned(vertex_count * sizeof(EdgeKey)) + aligned(vertex_count * 4);
-  const std::uint64_t table = weld_table_slots(static_cast<std::uint32_t>(vertex_count)) * 4;
-  return later > table ? later : table;
+void lay_out(ScratchLayout& layout, std::uint32_t vertex_count, std::uint32_t face_count,
+             VertexDeletionScratch& scratch) {
+  lay_out_vertices(layout, vertex_count, scratch.surface);
+  lay_out_links(layout, vertex_count, face_count, scratch.surface);
+  layout.array(scratch.states, vertex_count);
+  layout.array(scratch.heap_slots, vertex_count);
+  layout.array(scratch.heap_places, vertex_count);
 }
 
 }  // namespace
 
 std::uint64_t vertex_deletion_scratch_bytes(std::uint32_t vertex_count, std::uint32_t face_count) {
-  return kAlignment + aligned(std::uint64_t{vertex_count} * 4) + aligned(std::uint64_t{vertex_count} * sizeof(Place)) +
-         aligned(std::uint64_t{vertex_count} * sizeof(Vertex)) + links_and_heap_bytes(vertex_count, face_count);
+  VertexDeletionScratch scratch;
+  return layout_bytes(kScratchAlignment,
+                      [&](ScratchLayout& layout) { lay_out(layout, vertex_count, face_count, scratch); });
 }
 
 bool carve_vertex_deletion_scratch(Arena& arena, std::uint32_t vertex_count, std::uint32_t face_count,
                                    VertexDeletionScratch& scratch) {
-  const std::uint64_t bytes = vertex_deletion_scratch_bytes(vertex_count, face_count) - kAlignment;
-  if (bytes > arena.available()) return false;
-  const std::span<std::byte> memory = arena.allocate<std::byte>(static_cast<std::size_t>(bytes), kAlignment);
-  if (memory.data() == nullptr) return false;
-  Arena rest(memory);  // from here on everything fits: the sizes above are the sum of these
-  scratch.surface.vertex_of_wedge = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
-  scratch.surface.places = rest.allocate<Place>(vertex_count, kAlignment);
-  scratch.surface.vertices = rest.allocate<Vertex>(vertex_count, kAlignment);
-  const std::size_t mark = rest.used();
-  scratch.surface.weld_table =
-      rest.allocate<std::uint32_t>(static_cast<std::size_t>(weld_table_slots(vertex_count)), kAlignment);
-  rest.rewind(mark);
-  scratch.surface.links = rest.allocate<std::uint32_t>(std::size_t{face_count} * 4, kAlignment);
-  scratch.states = rest.allocate<VertexState>(vertex_count, kAlignment);
-  scratch.heap_slots = rest.allocate<EdgeKey>(vertex_count, kAlignment);
-  scratch.heap_places = rest.allocate<std::uint32_t>(vertex_count, kAlignment);
-  return true;
+  return carve_layout(arena, kScratchAlignment,
+                      [&](ScratchLayout& layout) { lay_out(layout, vertex_count, face_count, scratch); });
 }
 
 }  // namespace usuzumi::firmware

@@ -22,7 +22,7 @@ static_assert(sizeof(VertexState) == 12);
 inline constexpr std::uint8_t kNever = 0xFF;
 
 struct VertexDeletionScratch {
-  SurfaceMemory surface;  // the weld table shares its memory with `links` and what follows, which come to be used later
+  SurfaceMemory surface;
   std::span<VertexState> states;
   std::span<EdgeKey> heap_slots;
   std::span<std::uint32_t> heap_places;
