@@ -222,16 +222,31 @@ void note_reduced_formats(const Desk& desk, const BoardDescription& board) {
                            pixels ? "in RGB565, " : ""));
 }
 
-void note_missing_layers(const RunOptions& options, const Desk& desk, bool any_collapse) {
-  if (!desk.layered_meshes().empty()) return;
-  if (!options.boot_layers.empty())
-    print_note(fmt::format("--boot-layers {} has no effect: {}", options.boot_layers,
-                           any_collapse ? "RAM has no room for layers, or meshes have no normals; pack --layers makes "
-                                          "them beforehand"
-                                        : "no mesh has level 3"));
-  else if (options.lod != "off")
+/// Why no layers were made at boot, or empty where some were.
+std::string why_no_boot_layers(const Desk& desk) {
+  const firmware::DrawingData& data = desk.drawing_data();
+  const auto layered = desk.layered_meshes();
+  const auto in_rom = [&](std::uint32_t n) { return !data.mesh(n).layers.empty(); };
+  if (!std::all_of(layered.begin(), layered.end(), in_rom)) return {};
+  bool any_collapse = false, any_without = false;
+  for (std::uint32_t n = 0; n < data.mesh_max(); ++n) {
+    if (data.mesh(n).level != firmware::Level::kCollapse) continue;
+    any_collapse = true;
+    any_without = any_without || !in_rom(n);
+  }
+  if (!any_collapse) return "no mesh has level 3";
+  return any_without ? "RAM has no room for layers, or meshes have no normals; pack --layers makes them beforehand"
+                     : "every mesh of level 3 has layers in the ROM";
+}
+
+void note_missing_layers(const RunOptions& options, const Desk& desk) {
+  if (!options.boot_layers.empty()) {
+    const std::string why = why_no_boot_layers(desk);
+    if (!why.empty()) print_note(fmt::format("--boot-layers {} has no effect: {}", options.boot_layers, why));
+  } else if (options.lod != "off" && desk.layered_meshes().empty()) {
     print_note(fmt::format("--lod {} has no effect: no mesh has layers; give pack --layers or run --boot-layers",
                            options.lod));
+  }
 }
 
 /// Says which options are in order but change nothing, so that nobody waits for what they should do.
@@ -244,7 +259,7 @@ void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const 
   for (const auto& [option, value] : {std::pair{"--quota", options.quota}, {"--placement", options.placement}})
     if (!any_collapse && !value.empty())
       print_note(fmt::format("{} {} has no effect: no mesh has level 3", option, value));
-  note_missing_layers(options, desk, any_collapse);
+  note_missing_layers(options, desk);
   if (options.orbit && options.frames == 1) print_note("--orbit has no effect on one frame; give --frames");
   if (path.cameras() > options.frames)
     print_note(fmt::format("{}: {} cameras for {} frame(s); give --frames {} to use them all", options.camera,

@@ -200,7 +200,9 @@ Desk::Shown Desk::draw(const firmware::FrameRequest& request) {
   record.thin_ms = ms_from_ns(record.firmware.thin_ns);
   record.draw_ms = ms_from_ns(record.firmware.draw_ns);
   record.scanout_ms = static_cast<double>(p.mode.frame_ticks()) * 1e3 / static_cast<double>(kMasterHz);
-  for (const std::uint32_t n : layered_meshes()) record.layers.push_back(device().thinning().drawn_layer(n));
+  const bool drawn = record.firmware.thinning.meshes_in > 0;
+  for (const std::uint32_t n : layered_meshes())
+    record.layers.push_back(drawn ? device().thinning().drawn_layer(n) : -1);
   record.host_ms = stopwatch.elapsed_ms();
   return {record, picture};
 }

@@ -50,7 +50,8 @@ struct FrameRecord {
   std::uint32_t panel_crc32 = 0;  // the same of the picture that the panel rebuilt
   double thin_ms = 0, draw_ms = 0, scanout_ms = 0;
   double host_ms = 0;             // from the frame's request to its last pixel on the panel
-  std::vector<float> layers;      // of each mesh that has layers, in their order; negative where not drawn from them
+  std::vector<float> layers;      // of each mesh that has layers, in their order; negative where not drawn from them,
+                                  // or nothing was drawn
 };
 
 class Desk {

@@ -282,6 +282,13 @@ TEST_F(RunCommand, DrawsMeshesFromTheirLayers) {
   EXPECT_EQ(booted["frames"][0]["layers"], between["frames"][0]["layers"]);
   EXPECT_EQ(booted["frames"][0]["crc32"], between["frames"][0]["crc32"]);
   EXPECT_TRUE(report("hills.rom")["frames"][0]["layers"].empty());
+  const auto off = report("layered.rom --frames 2 --gpio 0:ignition=1,1:ignition=0");
+  EXPECT_TRUE(off["frames"][0]["layers"][0].is_number());
+  EXPECT_TRUE(off["frames"][1]["layers"][0].is_null()) << "nothing is drawn";
+  EXPECT_EQ(usuzumi("run layered.rom --size 160x96 --boot-layers 100,50").err,
+            "note: --boot-layers 100,50 has no effect: every mesh of level 3 has layers in the ROM\n");
+  const std::string beyond = usuzumi("run layered.rom --size 160x96 --lod quota --quota 5%").out;
+  EXPECT_NE(beyond.find("or the quota lies beyond their last layer"), std::string::npos) << beyond;
 }
 
 TEST_F(RunCommand, RefusesLayersAndAttentionThatCannotBe) {
