@@ -100,4 +100,17 @@ inline void expect_replay_gives(const Mesh& given, const firmware::CollapseLog& 
   }
 }
 
+/// The steps of `log` from the thinned corners back to the given ones: every change must name what is there.
+inline void expect_undoing_gives(const Mesh& given, const firmware::CollapseLog& log) {
+  std::vector<std::uint32_t> corners = given.indices;
+  for (const firmware::CornerChange& c : log.changes()) corners[c.corner] = c.to;
+  for (std::size_t i = log.changes().size(); i-- > 0;) {
+    const firmware::CornerChange& c = log.changes()[i];
+    ASSERT_EQ(corners[c.corner], c.to) << "change " << i;
+    corners[c.corner] = c.from;
+  }
+  for (std::size_t c = 0; c < corners.size(); ++c)  // or one that welding made equal
+    ASSERT_TRUE(seen_vertex(given, corners[c]) == seen_vertex(given, given.indices[c])) << "corner " << c;
+}
+
 }  // namespace usuzumi::testing

@@ -17,36 +17,38 @@ struct Thinned {
   std::size_t scratch_used = 0;
 };
 
-/// `mesh` thinned with exactly `scratch_bytes` of scratch (simplify_scratch_bytes by default).
-inline Thinned thin(const Mesh& mesh, const firmware::SimplifyOptions& options, std::size_t scratch_bytes = 0) {
+/// `mesh` thinned in what is left of `scratch`.
+inline Thinned thin_in(Arena& scratch, const Mesh& mesh, const firmware::SimplifyOptions& options) {
   Thinned result;
   result.mesh = mesh;
-  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto faces = static_cast<std::uint32_t>(mesh.face_count());
-  std::vector<std::byte> memory(
-      scratch_bytes != 0 ? scratch_bytes
-                         : firmware::simplify_scratch_bytes(options.method, vertices, faces,
-                                                            !mesh.texture_coordinates.empty()));
-  Arena scratch(memory);
   firmware::WorkingMesh working{.positions = result.mesh.positions,
                                 .normals = result.mesh.normals,
                                 .colours = result.mesh.colours,
                                 .texture_coordinates = result.mesh.texture_coordinates,
                                 .indices = result.mesh.indices,
-                                .vertex_count = vertices,
-                                .face_count = faces};
+                                .vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
+                                .face_count = static_cast<std::uint32_t>(mesh.face_count())};
   const auto outcome = firmware::simplify(working, options, scratch);
   result.status = outcome.status();
   result.outcome = outcome.value();
   result.scratch_used = scratch.high_water();
-  if (outcome.ok()) {
-    result.mesh.positions.resize(working.vertex_count);
-    if (!mesh.normals.empty()) result.mesh.normals.resize(working.vertex_count);
-    if (!mesh.colours.empty()) result.mesh.colours.resize(working.vertex_count);
-    if (!mesh.texture_coordinates.empty()) result.mesh.texture_coordinates.resize(working.vertex_count);
-    result.mesh.indices.resize(std::size_t{working.face_count} * 3);
-  }
+  result.mesh.positions.resize(working.vertex_count);
+  if (!mesh.normals.empty()) result.mesh.normals.resize(working.vertex_count);
+  if (!mesh.colours.empty()) result.mesh.colours.resize(working.vertex_count);
+  if (!mesh.texture_coordinates.empty()) result.mesh.texture_coordinates.resize(working.vertex_count);
+  result.mesh.indices.resize(std::size_t{working.face_count} * 3);
   return result;
+}
+
+/// The same with exactly `scratch_bytes` of scratch (simplify_scratch_bytes by default).
+inline Thinned thin(const Mesh& mesh, const firmware::SimplifyOptions& options, std::size_t scratch_bytes = 0) {
+  std::vector<std::byte> memory(
+      scratch_bytes != 0 ? scratch_bytes
+                         : firmware::simplify_scratch_bytes(
+                               options.method, static_cast<std::uint32_t>(mesh.positions.size()),
+                               static_cast<std::uint32_t>(mesh.face_count()), !mesh.texture_coordinates.empty()));
+  Arena scratch(memory);
+  return thin_in(scratch, mesh, options);
 }
 
 /// By quadric error.
