@@ -245,50 +245,5 @@ TEST(HalfEdge, NoFaceEverTakesAVertexOfAnotherMaterial) {
   }
 }
 
-TEST(HalfEdge, MaterialsKeepTheirOwnVerticesAndTheirAreas) {
-  // Left of x = 5 and right of it, with vertices of their own.
-  const Mesh sheet = grid(16, 16);
-  Mesh mesh;
-  firmware::MaterialGroup groups[2];
-  for (int g = 0; g < 2; ++g) {
-    for (std::size_t f = 0; f < sheet.indices.size(); f += 3) {
-      float right = 0;
-      for (std::size_t k = 0; k < 3; ++k) right = std::max(right, sheet.positions[sheet.indices[f + k]].x);
-      if ((right <= 5) != (g == 0)) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-        mesh.positions.push_back(sheet.positions[sheet.indices[f + k]]);
-      }
-    }
-    groups[g] = {static_cast<std::uint32_t>(mesh.face_count()), static_cast<std::uint32_t>(mesh.positions.size())};
-  }
-  for (const std::uint32_t target : {100u, 4u, 0u}) {
-    Mesh left = mesh;
-    firmware::MaterialGroup ends[2] = {groups[0], groups[1]};
-    std::vector<std::byte> memory(firmware::half_edge_scratch_bytes(groups[1].vertex_end, groups[1].face_end));
-    Arena scratch(memory);
-    firmware::WorkingMesh working{.positions = left.positions,
-                                  .groups = ends,
-                                  .indices = left.indices,
-                                  .vertex_count = groups[1].vertex_end,
-                                  .face_count = groups[1].face_end};
-    ASSERT_TRUE(firmware::simplify_half_edge(working, {.target_faces = target}, scratch).ok());
-    EXPECT_LE(working.face_count, std::max(target, 4u));
-    EXPECT_EQ(ends[1].face_end, working.face_count);
-    double area[2] = {0, 0};
-    for (std::uint32_t f = 0; f < working.face_count; ++f) {
-      const int g = f < ends[0].face_end ? 0 : 1;
-      const std::uint32_t* v = &left.indices[std::size_t{f} * 3];
-      for (std::size_t k = 0; k < 3; ++k)
-        ASSERT_EQ(v[k] < ends[0].vertex_end, g == 0) << "a vertex of the other material";
-      area[g] += cross(left.positions[v[1]] - left.positions[v[0]], left.positions[v[2]] - left.positions[v[0]]).z / 2;
-    }
-    if (target >= 4) {
-      EXPECT_EQ(area[0], 5.0 * 16);
-      EXPECT_EQ(area[1], 11.0 * 16);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace usuzumi::testing
