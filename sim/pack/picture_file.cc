@@ -1,5 +1,8 @@
 #include "sim/pack/picture_file.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -12,6 +15,16 @@ bool begins_with(std::span<const std::byte> file, const std::array<unsigned char
 }
 
 }  // namespace
+
+std::optional<Picture> picture_of(std::uint32_t width, std::uint32_t height, std::string& fault) {
+  if (std::max(width, height) > kMostDecoded) {
+    fault = fmt::format("has {}x{} texels, and at most {} each way are read", width, height, kMostDecoded);
+    return std::nullopt;
+  }
+  Picture picture{{}, width, height, {}};
+  picture.texels.resize(std::size_t{width} * height);
+  return picture;
+}
 
 std::optional<Picture> decode_picture(std::span<const std::byte> file, std::string& fault) {
   if (begins_with<8>(file, {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A})) return decode_png(file, fault);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ inline constexpr std::uint32_t kMostDecoded = 16384;
 /// A PNG or JPEG file, told apart by its first bytes. Grey, palette and 16-bit images become 8 bits a channel. nullopt
 /// where it cannot be used; `fault` then says why, as in "is damaged: …". The name is left empty.
 std::optional<Picture> decode_picture(std::span<const std::byte> file, std::string& fault);
+
+/// Room for a picture's texels, for the decoders below. nullopt, and why in `fault`, where it is too large.
+std::optional<Picture> picture_of(std::uint32_t width, std::uint32_t height, std::string& fault);
 
 std::optional<Picture> decode_png(std::span<const std::byte> file, std::string& fault);
 std::optional<Picture> decode_jpeg(std::span<const std::byte> file, std::string& fault);

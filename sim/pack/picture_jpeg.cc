@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <vector>
@@ -102,15 +101,10 @@ std::optional<Picture> decode_jpeg(std::span<const std::byte> file, std::string&
     fault = fmt::format("is a damaged JPEG ({})", reader.message());
     return std::nullopt;
   }
-  if (std::max(reader.width(), reader.height()) > kMostDecoded) {
-    fault = fmt::format("has {}x{} texels, and at most {} each way are read", reader.width(), reader.height(),
-                        kMostDecoded);
-    return std::nullopt;
-  }
-  Picture picture{{}, reader.width(), reader.height(), {}};
-  picture.texels.resize(std::size_t{picture.width} * picture.height);
-  std::vector<unsigned char> row(std::size_t{4} * picture.width);
-  if (reader.read_rows(row.data(), picture.texels.data())) return picture;
+  std::optional<Picture> picture = picture_of(reader.width(), reader.height(), fault);
+  if (!picture) return std::nullopt;
+  std::vector<unsigned char> row(std::size_t{4} * picture->width);
+  if (reader.read_rows(row.data(), picture->texels.data())) return picture;
   fault = fmt::format("is a damaged JPEG ({})", reader.message());
   return std::nullopt;
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <vector>
@@ -87,16 +86,11 @@ std::optional<Picture> decode_png(std::span<const std::byte> file, std::string& 
     fault = fmt::format("is a damaged PNG ({})", reader.message());
     return std::nullopt;
   }
-  if (std::max(reader.width(), reader.height()) > kMostDecoded) {
-    fault = fmt::format("has {}x{} texels, and at most {} each way are read", reader.width(), reader.height(),
-                        kMostDecoded);
-    return std::nullopt;
-  }
-  Picture picture{{}, reader.width(), reader.height(), {}};
-  picture.texels.resize(std::size_t{picture.width} * picture.height);
+  std::optional<Picture> picture = picture_of(reader.width(), reader.height(), fault);
+  if (!picture) return std::nullopt;
   std::vector<png_bytep> rows;  // Rgba8 has the bytes R, G, B, A in rising address order, as libpng writes them
-  for (std::uint32_t y = 0; y < picture.height; ++y)
-    rows.push_back(reinterpret_cast<png_bytep>(picture.texels.data() + std::size_t{y} * picture.width));
+  for (std::uint32_t y = 0; y < picture->height; ++y)
+    rows.push_back(reinterpret_cast<png_bytep>(picture->texels.data() + std::size_t{y} * picture->width));
   if (reader.read_rows(rows.data())) return picture;
   fault = fmt::format("is a damaged PNG ({})", reader.message());
   return std::nullopt;

@@ -189,5 +189,23 @@ TEST(PictureFile, EveryCutOffFileIsRefusedWithAReason) {
     }
 }
 
+TEST(PictureFile, MoreThan16384TexelsEachWayAreRefused) {
+  const auto file_of = [](bool png, std::uint32_t width, std::uint32_t height) {
+    const std::vector<Rgba8> texels = plain(width, height, rgba8(1, 2, 3));
+    return png ? testing::png_file(width, height, texels) : testing::jpeg_file(width, height, texels);
+  };
+  for (const bool png : {true, false}) {
+    std::string fault;
+    const std::string wide = file_of(png, 16384, 1), wider = file_of(png, 16385, 1), taller = file_of(png, 1, 16385);
+    const auto picture = sim::decode_picture(std::as_bytes(std::span(wide)), fault);
+    ASSERT_TRUE(picture) << fault;
+    EXPECT_EQ(picture->texels.size(), 16384u);
+    EXPECT_FALSE(sim::decode_picture(std::as_bytes(std::span(wider)), fault));
+    EXPECT_EQ(fault, "has 16385x1 texels, and at most 16384 each way are read");
+    EXPECT_FALSE(sim::decode_picture(std::as_bytes(std::span(taller)), fault));
+    EXPECT_EQ(fault, "has 1x16385 texels, and at most 16384 each way are read");
+  }
+}
+
 }  // namespace
 }  // namespace usuzumi
