@@ -8,6 +8,8 @@
 // noise.
 #pragma once
 
+#include <cmath>
+
 #include "hal/vec.h"
 
 namespace usuzumi::firmware {
@@ -26,6 +28,12 @@ inline Vec3 multiply(const Quadric& q, Vec3 x) {
 
 /// Summed weight of the planes: their unit normals make the trace.
 inline float weight_of(const Quadric& q) { return q.xx + q.yy + q.zz; }
+
+/// Root mean square distance of the owner from the planes; 0 where there are none.
+inline float distance_of(const Quadric& q) {
+  const float weight = weight_of(q);
+  return weight > 0 ? std::sqrt(q.c / weight) : 0.0f;
+}
 
 /// Q(x). Rounding can take it a little below zero.
 inline float evaluate(const Quadric& q, Vec3 x) { return dot(x, multiply(q, x) + q.b * 2.0f) + q.c; }
@@ -49,6 +57,11 @@ inline Quadric moved_to(const Quadric& q, Vec3 to) {
   r.b = q.b + t;
   r.c = q.c + dot(to, q.b + r.b);
   return r;
+}
+
+/// Of two quadrics about one owner.
+inline Quadric operator+(const Quadric& p, const Quadric& q) {
+  return {p.xx + q.xx, p.xy + q.xy, p.xz + q.xz, p.yy + q.yy, p.yz + q.yz, p.zz + q.zz, p.b + q.b, p.c + q.c};
 }
 
 }  // namespace usuzumi::firmware

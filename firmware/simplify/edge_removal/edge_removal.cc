@@ -9,8 +9,6 @@
 // neighbours, where a plane in five or so has changed, when they come to the front. They mostly have grown dearer.
 #include "firmware/simplify/edge_removal/edge_removal.h"
 
-#include <cmath>
-
 #include "firmware/simplify/attributes.h"
 #include "firmware/simplify/collapse_rules.h"
 #include "firmware/simplify/cost_heap.h"
@@ -257,14 +255,9 @@ void EdgeRemover::carry_out(const Neighbourhood& n, float t, Vec3 position) {
 
   // Only what the outcome says of the error, and how normals mix, rest on the quadrics.
   Quadric& quadric = surface_.vertices[v].quadric;
-  quadric = moved_to(quadric_a, position - a);
-  const Quadric other = moved_to(quadric_b, position - b);
-  quadric.xx += other.xx, quadric.xy += other.xy, quadric.xz += other.xz;
-  quadric.yy += other.yy, quadric.yz += other.yz, quadric.zz += other.zz;
-  quadric.b = quadric.b + other.b;
-  quadric.c = quadric.c + other.c > 0 ? quadric.c + other.c : 0.0f;
-  const float weight = weight_of(quadric);
-  const float error = weight > 0 ? std::sqrt(quadric.c / weight) : 0.0f;
+  quadric = moved_to(quadric_a, position - a) + moved_to(quadric_b, position - b);
+  quadric.c = quadric.c > 0 ? quadric.c : 0.0f;
+  const float error = distance_of(quadric);
   if (error > outcome_.max_error) outcome_.max_error = error;
 
   recorder_.record(collapsed);

@@ -10,8 +10,6 @@
 // front.
 #include "firmware/simplify/half_edge/half_edge.h"
 
-#include <cmath>
-
 #include "firmware/layers/collapse_log.h"
 #include "firmware/simplify/collapse_rules.h"
 #include "firmware/simplify/edge_collapse.h"
@@ -258,16 +256,9 @@ void HalfEdgeSimplifier::merge_quadrics(const HalfEdge& half_edge) {
   const Vec3 edge = surface_.position(half_edge.to) - surface_.position(half_edge.from);
   const Quadric moved = moved_to(surface_.vertices[half_edge.from].quadric, edge);
   Quadric& q = surface_.vertices[half_edge.to].quadric;
-  q.xx += moved.xx;
-  q.xy += moved.xy;
-  q.xz += moved.xz;
-  q.yy += moved.yy;
-  q.yz += moved.yz;
-  q.zz += moved.zz;
-  q.b = q.b + moved.b;
+  q = q + moved;
   q.c = half_edge.dist;
-  const float weight = weight_of(q);
-  const float error = weight > 0 ? std::sqrt(q.c / weight) : 0.0f;
+  const float error = distance_of(q);
   if (error > outcome_.max_error) outcome_.max_error = error;
 }
 

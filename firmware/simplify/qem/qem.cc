@@ -195,8 +195,7 @@ bool QemSimplifier::try_collapse(Corner edge, const EdgeCost& cost) {
   Quadric& quadric = surface_.vertices[v].quadric;
   quadric = moved_to(cost.quadric, position - a);  // where rounding put it, not where it was meant to go
   quadric.c = at_least_zero(quadric.c);
-  const float weight = weight_of(quadric);
-  const float error = weight > 0 ? std::sqrt(quadric.c / weight) : 0.0f;
+  const float error = distance_of(quadric);
   if (error > outcome_.max_error) outcome_.max_error = error;
   if (options_.log != nullptr) recorder_.record(collapsed);
 
