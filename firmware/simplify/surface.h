@@ -82,6 +82,21 @@ std::uint32_t link_corners(Surface& surface);
 /// Takes corner `c` out of the list of vertex `v`.
 void unlink_corner(Surface& surface, std::uint32_t v, Corner c);
 
+/// The least and the largest coordinates of `position_of(v)` over the vertices that have a face; zeros without any.
+template <class PositionOf>
+void find_extent(const Surface& surface, PositionOf position_of, Vec3& low, Vec3& high) {
+  low = high = Vec3{};
+  bool any = false;
+  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
+    if (surface.first_corner(v) == kNoCorner) continue;
+    const Vec3 p = position_of(v);
+    if (!any) low = high = p;
+    any = true;
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
+  }
+}
+
 /// What stands for `wedge` at vertex `v`: itself while a face names it there, else the first that one names; kNoWedge
 /// where `v` has no face.
 inline constexpr std::uint32_t kNoWedge = 0xFFFFFFFFu;

@@ -12,15 +12,7 @@ constexpr float kWorkingExtent = 4096;
 void copy_positions(const WorkingMesh& mesh, WorkingSurface& out) {
   Surface& surface = out.surface;
   Vec3 low, high;
-  bool any = false;
-  for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
-    if (surface.first_corner(v) == kNoCorner) continue;
-    const Vec3 p = mesh.positions[v];
-    if (!any) low = high = p;
-    any = true;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
-  }
+  find_extent(surface, [&](std::uint32_t v) { return mesh.positions[v]; }, low, high);
   // Halves first: the difference of two finite singles may be infinite.
   const Vec3 half = high * 0.5f - low * 0.5f;
   float extent = half.x > half.y ? half.x : half.y;

@@ -113,15 +113,7 @@ void EdgeRemover::count_border_edges() {
 
 void EdgeRemover::find_limit() {
   Vec3 low, high;
-  bool any = false;
-  for (std::uint32_t v = 0; v < surface_.vertex_count; ++v) {
-    if (surface_.first_corner(v) == kNoCorner) continue;
-    const Vec3 p = surface_.position(v);
-    if (!any) low = high = p;
-    any = true;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
-  }
+  find_extent(surface_, [this](std::uint32_t v) { return surface_.position(v); }, low, high);
   const Vec3 diagonal = high - low;
   outline_limit_ = settings().boundary_limit * dot(diagonal, diagonal);
 }

@@ -10,17 +10,9 @@ float at_least_zero(float x) { return x > 0 ? x : 0.0f; }
 void HalfEdgeCosts::start() {
   const Surface& s = *surface_;
   Vec3 low, high;
-  bool any = false;
-  for (std::uint32_t v = 0; v < s.vertex_count; ++v) {
-    areas_[v] = 0;
-    if (s.first_corner(v) == kNoCorner) continue;
-    const Vec3 p = s.position(v);
-    if (!any) low = high = p;
-    any = true;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
-  }
+  find_extent(s, [&](std::uint32_t v) { return s.position(v); }, low, high);
   max_dist_ = 2 * dot(high - low, high - low);
+  for (std::uint32_t v = 0; v < s.vertex_count; ++v) areas_[v] = 0;
   for (std::uint32_t face = 0; face < s.face_count; ++face) {
     if (s.is_dead(face)) continue;
     const std::uint32_t a = s.vertex_at(face * 4), b = s.vertex_at(face * 4 + 1), c = s.vertex_at(face * 4 + 2);
