@@ -31,7 +31,7 @@ class WedgeMatching {
   bool is_nearer(std::uint32_t wedge, std::uint32_t one, std::uint32_t other) const;
 
   const Surface& surface_;
-  const WedgeAttributes& attributes_;
+  const WedgeAttributes attributes_;
   const std::span<const MaterialGroup> groups_;
   const std::uint32_t to_;
   std::uint32_t count_ = 0;
