@@ -61,6 +61,8 @@ class LayerChainView {
   std::uint32_t faces_at(std::uint32_t step) const {
     return step == 0 ? header_.face_count : steps_[step - 1].faces_after;
   }
+  /// Of the last layer.
+  std::uint32_t last_faces() const { return faces_at(header_.step_count); }
   /// Of step s < step_count(), which leads from state s to state s + 1.
   std::span<const format::LayerChange> changes(std::uint32_t s) const {
     const std::uint32_t begin = s == 0 ? 0 : steps_[s - 1].change_end;

@@ -4,9 +4,6 @@
 #include <bit>
 #include <new>
 
-#include "firmware/layers/layer_chain_builder.h"
-#include "firmware/layers/mesh_layers.h"
-
 namespace usuzumi::firmware {
 namespace {
 
@@ -17,39 +14,6 @@ constexpr std::uint32_t kMaxQuotaHalvings = 4;
 Decision narrowed(Decision decision, std::uint32_t quota_halvings) {
   decision.target_faces >>= quota_halvings;
   return decision;
-}
-
-/// Every mesh is copied whole in no more bytes than this.
-std::uint64_t whole_bytes(const MeshView& mesh) {
-  const std::uint64_t vertex = sizeof(Vec3) + sizeof(PackedNormal) + (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
-                               (mesh.textured ? sizeof(TexCoord) : 0);
-  return mesh.positions.size() * vertex + (mesh.indices.size() + 3) / 4 * 4;
-}
-
-/// The same with its chain, whatever the mode.
-std::uint64_t largest_block_bytes(const MeshView& mesh, std::span<const std::byte> chain) {
-  return layered_bytes(mesh, LayerChainView::of_checked(chain), true, false);
-}
-
-/// What thinning a mesh by its method takes at most beside the copies of all meshes.
-std::uint64_t thinning_bytes(const MeshView& mesh, std::uint32_t faces) {
-  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
-  return whole_bytes(mesh) + std::uint64_t{faces} * 12 + mesh.groups.size() * sizeof(MaterialGroup) +
-         std::uint64_t{vertices} * 4 + simplify_scratch_bytes(mesh.method, vertices, faces, mesh.textured);
-}
-
-/// Whether a mesh as decided can be drawn from its chain.
-bool chain_serves(const LayerChainView& chain, LayerMode mode, const Decision& decision) {
-  const format::LayerChainHeader& made = chain.header();
-  if (made.method != static_cast<std::uint32_t>(decision.method)) return false;
-  if (decision.method == Method::kQem && made.placement != static_cast<std::uint32_t>(decision.placement)) return false;
-  return mode != LayerMode::kFaces || decision.target_faces >= chain.faces_at(chain.step_count());
-}
-
-/// As if layer 0 had been drawn there.
-LayerMemory memory_of_whole(const Box& box, const View& view) {
-  const ScreenExtent extent = screen_extent(box, view);
-  return {true, 0, !extent.beyond_eye, extent.centre_x, extent.centre_y};
 }
 
 unsigned size_class(std::uint64_t bytes) { return static_cast<unsigned>(std::bit_width(bytes)); }
@@ -74,7 +38,7 @@ Thinning::Priority Thinning::priority(const MeshView& mesh) {
 Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus,
                        std::span<const std::uint32_t> boot_layers) {
   begun_ = layers_given_up_ = false;
-  layered_ = {};
+  layers_ = {};
   copy_ = {};
   quota_halvings_ = 0;
   totals_ = {};
@@ -93,67 +57,9 @@ Status Thinning::begin(const DrawingData& data, Arena& ram, bool rom_on_bus,
     faces_in_ += faces;
     if (mesh.level == Level::kCollapse) totals_.collapse_faces += faces;
   }
-  const Status status = begin_layers(ram, boot_layers);
+  const Status status = layers_.begin(data, ram, boot_layers);
   return status.ok() ? copy_.begin(data.mesh_max(), ram, rom_on_bus) : status;
 }
-
-Status Thinning::begin_layers(Arena& ram, std::span<const std::uint32_t> boot_layers) {
-  if (!boot_layers.empty() && !layer_quotas_fall(boot_layers))
-    return {StatusCode::kInvalidArgument, "layers must fall from 1,000,000 millionths; their number is",
-            static_cast<std::uint32_t>(boot_layers.size())};
-  // Normals are made for each thinned copy anew where ROM has none; a chain knows none of them.
-  const auto may_have_layers = [&](const MeshView& mesh) {
-    return mesh.level == Level::kCollapse && !mesh.normals.empty() && (!mesh.layers.empty() || !boot_layers.empty());
-  };
-  std::uint32_t count = 0;
-  std::uint64_t needed = std::uint64_t{data_->mesh_max()} * RamCopy::kTableBytes, largest_thinning = 0;
-  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
-    const MeshView mesh = view_of(n);
-    if (may_have_layers(mesh)) states_[n].layered_slot = count++;
-    const std::uint64_t block = mesh.layers.empty() ? 0 : largest_block_bytes(mesh, mesh.layers);
-    needed += std::max(whole_bytes(mesh), block);
-    if (mesh.level == Level::kCollapse)
-      largest_thinning = std::max(largest_thinning, thinning_bytes(mesh, states_[n].faces));
-  }
-  needed += largest_thinning;
-  layered_ = ram.allocate<LayeredMesh>(count);
-  if (layered_.size() != count)
-    return {StatusCode::kResourceExhausted, "RAM has no room for the table of meshes with layers; meshes", count};
-  for (std::uint32_t n = 0; n < data_->mesh_max(); ++n) {
-    const MeshView mesh = view_of(n);
-    if (!may_have_layers(mesh)) continue;
-    LayeredMesh& layered = *new (&layered_[states_[n].layered_slot]) LayeredMesh{};
-    layered.mesh = n;
-    layered.box = box_of(mesh.positions);
-    layered.chain = mesh.layers;
-    if (layered.chain.empty()) needed += make_layers(mesh, boot_layers, needed, ram, layered);
-  }
-  return ok_status();
-}
-
-/// Makes the mesh's chain where RAM then still holds `needed` bytes and what its block is larger than the mesh; returns
-/// that difference.
-std::uint64_t Thinning::make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t needed,
-                                    Arena& ram, LayeredMesh& layered) {
-  const std::size_t mark = ram.used();
-  const auto made = make_mesh_layers(mesh, states_[mesh.number].faces, quotas, Placement::kOptimal, ram);
-  if (!made.ok()) return 0;  // it is thinned by its method whenever asked for
-  const std::uint64_t whole = whole_bytes(mesh), block = largest_block_bytes(mesh, *made);
-  const std::uint64_t more = block > whole ? block - whole : 0;
-  if (needed + more > ram.available()) {
-    ram.rewind(mark);
-    return 0;
-  }
-  layered.chain = *made;
-  return more;
-}
-
-LayeredMesh* Thinning::layered(std::uint32_t n) {
-  const std::uint32_t slot = states_[n].layered_slot;
-  return slot < layered_.size() && !layered_[slot].chain.empty() ? &layered_[slot] : nullptr;
-}
-
-const LayeredMesh* Thinning::layers(std::uint32_t n) const { return const_cast<Thinning*>(this)->layered(n); }
 
 float Thinning::drawn_layer(std::uint32_t n) const {
   const LayeredMesh* layered = layers(n);
@@ -230,8 +136,7 @@ bool Thinning::decide_all(const ThinningSettings& settings, const View& view, Cl
 void Thinning::decide_layers(LayerMode mode, std::uint32_t n, Decision& decision) {
   const LayeredMesh* layered = layers(n);
   if (decision.action != Action::kCollapse || layered == nullptr || !layered->sound) return;
-  const LayerChainView chain = layered->view();
-  if (!chain_serves(chain, mode, decision)) return;
+  if (!chain_serves(*layered, mode, decision)) return;
   decision.layered = true;
   decision.vertices_move = mode != LayerMode::kFaces;
 }
@@ -279,7 +184,7 @@ void Thinning::build_one(const MeshView& mesh, Clock& clock) {
 
 BuildReport Thinning::build(const MeshView& mesh, const Decision& decision, Clock& clock) {
   if (decision.layered && !layers_given_up_) {
-    LayeredMesh& layered = *this->layered(mesh.number);
+    LayeredMesh& layered = *layers_.find(mesh.number);
     BuildReport report;
     if (copy_layered(mesh, layered, decision.vertices_move, copy_, clock, report)) return report;
     if (!layered.sound) states_[mesh.number].decision.layered = false;
@@ -290,7 +195,7 @@ BuildReport Thinning::build(const MeshView& mesh, const Decision& decision, Cloc
 /// Moves every mesh that is drawn from its layers to where it is wanted; returns how many were not there.
 std::uint32_t Thinning::move_along_layers(const LayerSettings& settings, const View& view, Clock& clock) {
   std::uint32_t moved = 0;
-  for (LayeredMesh& layered : layered_) {
+  for (LayeredMesh& layered : layers_.meshes()) {
     if (layered.chain.empty()) continue;
     const std::uint32_t n = layered.mesh;
     const Decision& decision = states_[n].decision;
@@ -298,27 +203,14 @@ std::uint32_t Thinning::move_along_layers(const LayerSettings& settings, const V
       layered.memory = {};
       // A mesh that was drawn whole sets out from its first layer.
       if (settings.mode == LayerMode::kAutomatic && copy_.present(n) && decision.action == Action::kKeep)
-        layered.memory = memory_of_whole(layered.box, view);
+        layered.memory = memory_of_whole(layered, view);
       continue;
     }
-    const LayerChainView chain = layered.view();
-    const auto quota = static_cast<float>(decision.target_faces);
-    ChainPlace place;
-    switch (settings.mode) {
-      case LayerMode::kFaces: place = place_of_faces(chain, decision.target_faces); break;
-      case LayerMode::kQuota: place = place_of_layer(chain, layer_of_faces(chain, quota)); break;
-      case LayerMode::kAutomatic: {
-        const float coarsest =
-            decision.quota_given ? layer_of_faces(chain, quota) : static_cast<float>(chain.layer_count() - 1);
-        place = place_of_layer(chain, choose_layer(chain, screen_extent(layered.box, view), view, settings.attention,
-                                                   settings.choice, coarsest, layered.memory));
-        break;
-      }
-    }
+    const ChainPlace place = place_wanted(layered, settings, decision, view);
     const bool automatic = settings.mode == LayerMode::kAutomatic;
     if (!automatic) layered.memory = {};
     // Of LayerMode::kAutomatic the quota is a limit, not what is asked for.
-    const bool missed = !automatic && decision.target_faces < chain.faces_at(chain.step_count());
+    const bool missed = !automatic && decision.target_faces < layered.view().last_faces();
     states_[n].build.outcome = missed ? BuildOutcome::kQuotaNotReached : BuildOutcome::kBuilt;
     if (move_layered(view_of(n), layered, place, copy_, clock)) ++moved;
   }
@@ -415,7 +307,7 @@ Status Thinning::summarize(ThinningReport& report) const {
   report.faces_out = copy_.faces();
   report.quota_halvings = quota_halvings_;
   report.layers_given_up = layers_given_up_;
-  for (const LayeredMesh& layered : layered_)
+  for (const LayeredMesh& layered : layers_.meshes())
     if (!layered.sound) ++report.chains_refused;
   report.copy_bytes = copy_.used_bytes();
   report.peak_bytes = copy_.peak_bytes();

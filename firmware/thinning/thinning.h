@@ -5,6 +5,7 @@
 #include <span>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/thinning/layer_table.h"
 #include "firmware/thinning/layered_mesh.h"
 #include "firmware/thinning/mesh_builder.h"
 #include "firmware/thinning/policy.h"
@@ -54,7 +55,6 @@ struct MeshState {
   BuildReport build;
   std::uint32_t record_offset = 0;
   std::uint32_t faces = 0;  // proper ones of the mesh in ROM, counted once
-  std::uint32_t layered_slot = 0xFFFFFFFF;  // in the table of layered meshes; of a mesh without layers beyond it
   bool wanted = false;  // scratch of an update: to be built
   bool built = false;   // by the last update
   bool known = false;   // decision and build are those of the copy
@@ -88,7 +88,7 @@ class Thinning {
   const RamCopy& copy() const { return copy_; }
   const MeshState& state(std::uint32_t n) const { return states_[n]; }
   /// The chain of layers that mesh n has, in ROM or made at boot; null where it has none.
-  const LayeredMesh* layers(std::uint32_t n) const;
+  const LayeredMesh* layers(std::uint32_t n) const { return layers_.find(n); }
   /// The layer that mesh n is drawn in, between two where it is a fraction (LayeredMesh::place); negative where it is
   /// not drawn from its layers.
   float drawn_layer(std::uint32_t n) const;
@@ -100,10 +100,6 @@ class Thinning {
   static Priority priority(const MeshView& mesh);
 
   MeshView view_of(std::uint32_t n) const { return data_->mesh_at(n, states_[n].record_offset); }
-  Status begin_layers(Arena& ram, std::span<const std::uint32_t> boot_layers);
-  std::uint64_t make_layers(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t needed,
-                            Arena& ram, LayeredMesh& layered);
-  LayeredMesh* layered(std::uint32_t n);
   void decide_layers(LayerMode mode, std::uint32_t n, Decision& decision);
   std::uint32_t move_along_layers(const LayerSettings& settings, const View& view, Clock& clock);
   void build_all(Clock& clock);
@@ -125,7 +121,7 @@ class Thinning {
   const DrawingData* data_ = nullptr;
   RamCopy copy_;
   std::span<MeshState> states_;
-  std::span<LayeredMesh> layered_;  // rising by mesh
+  LayerTable layers_;
   LevelTotals totals_;
   std::uint64_t faces_in_ = 0;
   std::uint32_t quota_halvings_ = 0;
