@@ -176,7 +176,7 @@ Status check_appearance(const Words& words, const Sections& sections, const form
   if (!sections.texture_coordinates.holds(coordinates, std::uint64_t{vertices} * sizeof(TexCoord)))
     return damaged("texture coordinates lie outside section TXCO, in the mesh descriptor at byte offset", at);
   // Magnitudes as integers: they order as the numbers do, infinity and NaN above all.
-  constexpr auto kMaxMagnitude = std::bit_cast<std::uint32_t>(format::kMaxTextureCoordinate);
+  constexpr auto kMaxMagnitude = std::bit_cast<std::uint32_t>(kMaxTextureCoordinate);
   for (std::uint32_t i = 0; i < 2 * vertices; ++i)
     if ((words.at(coordinates + 4 * i) & 0x7FFFFFFFu) > kMaxMagnitude)
       return damaged("texture coordinate is beyond 10000 or -10000 or no number, at byte offset", coordinates + 4 * i);

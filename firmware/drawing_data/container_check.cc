@@ -24,7 +24,7 @@ Status check_record(const Words& words, std::uint32_t offset, std::uint32_t end)
     return damaged("mesh has more vertices than the data has bytes for, at byte offset", offset);
   if (words.at(offset + 4) >= kLevelCount) return damaged("thinning level is not 0 to 5, at byte offset", offset + 4);
   // Magnitudes as integers: they order as the numbers do, infinity and NaN above all.
-  constexpr auto kMaxMagnitude = std::bit_cast<std::uint32_t>(format::kMaxCoordinate);
+  constexpr auto kMaxMagnitude = std::bit_cast<std::uint32_t>(kMaxCoordinate);
   const std::uint32_t first = offset + kRecordHeadBytes;
   for (std::uint32_t at = first; at < first + kVertexBytes * vertices; at += 4) {
     const std::uint32_t magnitude = words.at(at) & 0x7FFFFFFFu;

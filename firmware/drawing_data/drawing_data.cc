@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "firmware/drawing_data/container_check.h"
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 
 namespace usuzumi::firmware {
 namespace {

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "firmware/simplify/bounds.h"
+
 namespace usuzumi::firmware::format {
 
 inline constexpr std::uint32_t kMagic = 0x315A5355;      // "USZ1"
@@ -16,14 +18,6 @@ inline constexpr std::uint32_t kAbsent = 0xFFFFFFFF;     // an offset or number 
 /// Bounds of the format; a file beyond them is refused.
 inline constexpr std::uint32_t kMaxFileBytes = 0x40000000;
 inline constexpr std::uint32_t kMaxMeshes = 65535;
-/// Largest magnitude of a coordinate. The squared length of a face's area vector, a fourth power of distances up to
-/// twice this, reaches 2e34: finite in single precision, with room for sums of many faces and for the camera's
-/// matrices.
-inline constexpr float kMaxCoordinate = 1e8f;
-/// Largest magnitude of a texture coordinate: how often an image may repeat across a mesh. Times kMaxTextureSize it is
-/// below 2^26, so that the number of a texel fits 32 bits with room for fractions; a single tells 1024 places of an
-/// image apart there.
-inline constexpr float kMaxTextureCoordinate = 1e4f;
 inline constexpr std::uint32_t kMaxTextureSize = 4096;   // texels each way
 
 struct Header {                    // 32 bytes at offset 0

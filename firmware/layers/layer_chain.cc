@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "firmware/drawing_data/format.h"
+#include "firmware/simplify/bounds.h"
 #include "firmware/simplify/simplify.h"
 
 namespace usuzumi::firmware {
@@ -211,7 +211,7 @@ class LayerChainChecker {
     const auto within = [](float c, float most) { return c >= -most && c <= most; };
     for (std::size_t i = 0; i < added.positions.size(); ++i) {
       const Vec3 p = added.positions[i];
-      constexpr float kMost = format::kMaxCoordinate;
+      constexpr float kMost = kMaxCoordinate;
       if (!within(p.x, kMost) || !within(p.y, kMost) || !within(p.z, kMost))
         return damaged_entry("chain of layers: a coordinate beyond 1e8 or not a number, at byte offset",
                              added.positions, i);
@@ -221,7 +221,7 @@ class LayerChainChecker {
         return damaged_entry("chain of layers: not a packed normal, at byte offset", added.normals, i);
     for (std::size_t i = 0; i < added.texture_coordinates.size(); ++i) {
       const TexCoord t = added.texture_coordinates[i];
-      if (!within(t.s, format::kMaxTextureCoordinate) || !within(t.t, format::kMaxTextureCoordinate))
+      if (!within(t.s, kMaxTextureCoordinate) || !within(t.t, kMaxTextureCoordinate))
         return damaged_entry("chain of layers: a texture coordinate beyond 10000 or not a number, at byte offset",
                              added.texture_coordinates, i);
     }

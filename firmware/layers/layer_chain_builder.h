@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware/layers/collapse_log.h"
 #include "firmware/layers/layer_chain.h"
+#include "firmware/simplify/collapse_log.h"
 #include "firmware/simplify/simplify.h"
 #include "hal/arena.h"
 #include "hal/status.h"

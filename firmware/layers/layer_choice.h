@@ -12,7 +12,7 @@
 #include <span>
 
 #include "firmware/layers/layer_chain.h"
-#include "firmware/thinning/screen_area.h"
+#include "firmware/scene/view.h"
 #include "hal/vec.h"
 
 namespace usuzumi::firmware {

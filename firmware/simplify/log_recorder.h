@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "firmware/layers/collapse_log.h"
+#include "firmware/simplify/collapse_log.h"
 #include "firmware/simplify/edge_collapse.h"
 #include "firmware/simplify/working_surface.h"
 

@@ -105,7 +105,7 @@ struct SimplifyOptions {
   EdgeRemovalSettings edge_removal = {};
   VertexDeletionSettings vertex_deletion = {};
   bool for_layers = false;  // so that a layer can be drawn moving into the next: vertex deletion fills by fans alone
-  CollapseLog* log = nullptr;  // receives every step where not null (firmware/layers/collapse_log.h)
+  CollapseLog* log = nullptr;  // receives every step where not null (firmware/simplify/collapse_log.h)
 };
 
 enum class StopReason : std::uint8_t {

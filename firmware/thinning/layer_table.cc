@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <new>
 
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/layer_chain_builder.h"
-#include "firmware/layers/mesh_layers.h"
 #include "firmware/thinning/ram_copy.h"
 
 namespace usuzumi::firmware {

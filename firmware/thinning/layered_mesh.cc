@@ -1,6 +1,6 @@
 #include "firmware/thinning/layered_mesh.h"
 
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/middle_layer.h"
 #include "firmware/thinning/block_writer.h"
 #include "firmware/thinning/whole_mesh.h"

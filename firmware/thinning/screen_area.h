@@ -4,15 +4,10 @@
 #include <cstdint>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/scene/view.h"
 #include "hal/vec.h"
 
 namespace usuzumi::firmware {
-
-/// Where the viewer stands and how large the picture is.
-struct View {
-  Mat4 model_to_clip;
-  std::uint32_t width = 0, height = 0;  // pixels
-};
 
 /// Pixels that the mesh's faces cover: each face is clipped to the view volume and projected, and the areas are summed.
 /// Faces of one mesh that hide each other all count, and so does what other meshes hide: the measure needs no picture.

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/layer_chain_builder.h"
-#include "firmware/layers/mesh_layers.h"
 #include "sim/common/progress.h"
 #include "sim/pack/host_arena.h"
 #include "sim/pack/rom_writer.h"

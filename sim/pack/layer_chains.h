@@ -1,4 +1,4 @@
-// Chains of layers for section LAYR, made by the firmware's own code (firmware/layers/mesh_layers.h).
+// Chains of layers for section LAYR, made by the firmware's own code (firmware/drawing_data/mesh_layers.h).
 #pragma once
 
 #include "sim/pack/model.h"

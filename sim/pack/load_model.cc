@@ -81,7 +81,7 @@ void check_mesh(const std::string& file, const Mesh& mesh) {
   for (std::size_t v = 0; v < vertices; ++v) {
     const Vec3& p = mesh.positions[v];
     if (!is_finite(p)) refuse(fmt::format("vertex {} has a coordinate that is infinite or no number", v));
-    constexpr float kMost = firmware::format::kMaxCoordinate;
+    constexpr float kMost = firmware::kMaxCoordinate;
     if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > kMost)
       refuse(fmt::format("vertex {} is at {:g} {:g} {:g}, and drawing data hold coordinates up to {:g}", v, p.x, p.y,
                          p.z, kMost));

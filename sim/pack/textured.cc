@@ -49,7 +49,7 @@ std::string fault_of(Mesh& mesh, const Material& material) {
   }
   const float off_s = repeats_to_take_off(s.low, s.high, material.wrap_s),
               off_t = repeats_to_take_off(t.low, t.high, material.wrap_t);
-  constexpr float kMost = firmware::format::kMaxTextureCoordinate;
+  constexpr float kMost = firmware::kMaxTextureCoordinate;
   if (!(std::max({off_s - s.low, s.high - off_s, off_t - t.low, t.high - off_t}) <= kMost))
     return fmt::format(
         "has texture coordinates from {:g} {:g} to {:g} {:g}, and drawing data hold up to {:g}; "

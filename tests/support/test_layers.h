@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware/drawing_data/drawing_data.h"
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "tests/support/rom_builder.h"
 
 namespace usuzumi::testing {

@@ -10,7 +10,7 @@
 // front.
 #include "firmware/simplify/half_edge/half_edge.h"
 
-#include "firmware/layers/collapse_log.h"
+#include "firmware/simplify/collapse_log.h"
 #include "firmware/simplify/collapse_rules.h"
 #include "firmware/simplify/edge_collapse.h"
 #include "firmware/simplify/edge_passes.h"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware/layers/collapse_log.h"
+#include "firmware/simplify/collapse_log.h"
 #include "firmware/simplify/surface.h"
 #include "firmware/simplify/vertex_deletion/ring.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/simplify/simplify.h"
 #include "tests/bench/simplify/models.h"
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/layers/collapse_log.h"
 #include "firmware/layers/layer_chain_builder.h"
+#include "firmware/simplify/collapse_log.h"
 #include "tests/support/mesh_shapes.h"
 
 namespace usuzumi::testing {

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "firmware/layers/collapse_log.h"
+#include "firmware/simplify/collapse_log.h"
 #include "tests/firmware/simplify/simplify_fixture.h"
 
 namespace usuzumi::testing {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/middle_layer.h"
 #include "firmware/thinning/thinning.h"
 #include "tests/support/test_layers.h"

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/layer_chain_builder.h"
-#include "firmware/layers/mesh_layers.h"
 #include "firmware/layers/middle_layer.h"
 #include "hal/crc32.h"
 #include "tests/sim/pack/pictures.h"

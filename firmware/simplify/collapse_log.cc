@@ -1,4 +1,4 @@
-#include "firmware/layers/collapse_log.h"
+#include "firmware/simplify/collapse_log.h"
 
 namespace usuzumi::firmware {
 

@@ -1,10 +1,10 @@
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "firmware/layers/collapse_log.h"
 #include "firmware/layers/layer_chain_builder.h"
+#include "firmware/simplify/collapse_log.h"
 
 namespace usuzumi::firmware {
 namespace {

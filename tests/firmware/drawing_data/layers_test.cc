@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/layer_chain.h"
-#include "firmware/layers/mesh_layers.h"
 #include "tests/support/mesh_shapes.h"
 #include "tests/support/rom_builder.h"
 

@@ -1,5 +1,5 @@
 // The firmware's own methods: what a chain's last state is, is what the method alone makes.
-#include "firmware/layers/mesh_layers.h"
+#include "firmware/drawing_data/mesh_layers.h"
 
 #include <gtest/gtest.h>
 
