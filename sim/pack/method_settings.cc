@@ -198,7 +198,8 @@ std::string set_setting(MethodSettings& settings, const std::string& name, const
 std::string misplaced_setting(Method method, const MethodSettings& settings) {
   const auto fault = [&](std::string_view name) {
     const Method owner = belongs(Method::kEdgeRemoval, name) ? Method::kEdgeRemoval : Method::kVertexDeletion;
-    return fmt::format("the setting '{}' is of method {}, not of {}", name, method_name(owner), method_name(method));
+    return fmt::format("the setting '{}' is of method {}, not of {}{}", name, method_name(owner), method_name(method),
+                       method == Method::kQem && name == kPlacement ? ", whose own is --placement" : "");
   };
   if (!settings.preset.empty() && !belongs(method, kPreset)) return fault(kPreset);
   for (const auto& [name, value] : settings.values)

@@ -14,6 +14,7 @@ namespace usuzumi::sim {
 namespace {
 
 constexpr std::size_t kMostSuggestions = 3;
+constexpr std::size_t kMostListed = 10;  // arbitrary; all properties of a mesh fit in
 
 /// "Wheel" of "Wheel#2".
 std::string_view without_number(std::string_view name) {
@@ -88,7 +89,7 @@ std::string suggest(std::string_view wanted, std::span<const std::string> names)
   for (const auto& [distance, name] : close) listed.push_back(name);
   if (!listed.empty()) return fmt::format("did you mean {}?", fmt::join(listed, ", "));
   for (const std::string& name : distinct)
-    if (listed.size() < kMostSuggestions) listed.push_back(name);
+    if (listed.size() < kMostListed) listed.push_back(name);
   return fmt::format("there are: {}{}", fmt::join(listed, ", "), distinct.size() > listed.size() ? ", …" : "");
 }
 

@@ -28,7 +28,7 @@ inline constexpr const char* kNamesHelp =
 /// Letters to insert, remove or change to make one of the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// "did you mean Wheel, Wheel#2?" from the names closest to `wanted`, or the first few names where none is close.
+/// "did you mean Wheel, Wheel#2?" from the names closest to `wanted`, or the first ten names where none is close.
 std::string suggest(std::string_view wanted, std::span<const std::string> names);
 
 /// Makes mesh names unique: #2, #3 … behind the second and later meshes of a name.

@@ -186,7 +186,8 @@ TEST_F(Methods, WhatIsNotKnownIsOneClearLine) {
   EXPECT_THAT(settings({{"largest", 1}}), HasSubstr("'largest' is of method vertex-deletion, not of edge-removal"));
   EXPECT_THAT(settings({{"preset", "round"}}), HasSubstr("flat, curved, bounded"));
   EXPECT_THAT(settings(json::object()), HasSubstr("object of settings"));
-  EXPECT_THAT(refusal({{"method_settings", {{"a", 1}}}}), HasSubstr("not of qem"));
+  EXPECT_THAT(refusal({{"method_settings", {{"a", 1}}}}), HasSubstr("not of qem; give it"));
+  EXPECT_THAT(refusal({{"method_settings", {{"placement", "midpoint"}}}}), HasSubstr("whose own is --placement"));
   const auto regions = [&](const json& r) { return refusal({{"method", "edge-removal"}, {"regions", r}}); };
   EXPECT_THAT(regions(json::array({{{"group", "rims"}, {"value", 1}}})), HasSubstr("RIM"));
   EXPECT_THAT(regions(json::array({{{"material", "pain"}, {"value", 1}}})), HasSubstr("did you mean paint"));
