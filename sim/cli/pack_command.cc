@@ -230,7 +230,7 @@ void add_pack_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(texel_choices()))
       ->capture_default_str();
   command->add_flag("--mips,!--no-mips", options->mips,
-                    "Smaller levels of each texture too, a third more ROM, against glitter (the default)");
+                    "Smaller levels of each texture too, against glitter, for a third more ROM; they are the default");
   command
       ->add_option("--texture-size", options->texture_size, "Halve larger textures until they are no larger, in texels")
       ->transform(whole_number(1, firmware::format::kMaxTextureSize))

@@ -328,7 +328,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--quota", options->quota,
                       "Faces for level-3 meshes instead of the authors' quotas: N over all of them, or P% of each");
-  command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes")
+  command->add_option("--placement", options->placement, "Where a collapsed edge's vertex goes with qem")
       ->check(CLI::IsMember({"optimal", "midpoint"}))
       ->default_str("optimal");
   command

@@ -168,8 +168,8 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
   text += pins_text(frames);
   if (t.quotas_missed > 0)
     text += fmt::format(
-        "  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver or "
-        "break the surface{}\n",
+        "  {} mesh(es) kept more faces than their quota: every collapse left would turn a face over, make a sliver, "
+        "break the surface, or pass a limit or lock of the author's{}\n",
         t.quotas_missed, t.meshes_layered > 0 ? ", or the quota lies beyond their last layer" : "");
   if (t.chains_refused > 0)
     text += fmt::format("  layers of {} mesh(es) contradict themselves and are not used; pack the model again\n",
