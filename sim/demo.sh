@@ -7,7 +7,7 @@ out=out/demo
 usuzumi=build/demo/sim/cli/usuzumi
 
 bash sim/install.sh
-echo "Building the simulator in build/demo, which takes a minute or two (log: build/demo.log)"
+echo "Building the simulator in build/demo, which takes two or three minutes on two cores (log: build/demo.log)"
 mkdir -p build "$out"
 { cmake --preset demo && cmake --build --preset demo -j "$(nproc)"; } >build/demo.log 2>&1 || { tail -n 40 build/demo.log; exit 1; }
 
