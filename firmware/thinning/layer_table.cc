@@ -109,7 +109,8 @@ bool chain_serves(const LayeredMesh& layered, LayerMode mode, const Decision& de
 ChainPlace place_wanted(LayeredMesh& layered, const LayerSettings& settings, const Decision& decision,
                         const View& view) {
   const LayerChainView chain = layered.view();
-  const float of_quota = layer_of_faces(chain, static_cast<float>(decision.target_faces));
+  // Whole faces alone would move a small mesh in steps: by a tenth of a layer on the way from 28 faces to 18.
+  const float of_quota = layer_of_faces(chain, static_cast<float>(decision.target_faces) + decision.target_fraction);
   switch (settings.mode) {
     case LayerMode::kFaces: return place_of_faces(chain, decision.target_faces);
     case LayerMode::kQuota: return place_of_layer(chain, of_quota);

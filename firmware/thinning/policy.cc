@@ -59,15 +59,18 @@ Decision Decider::decide(const MeshView& mesh, std::uint32_t faces) {
       if (!delete_taken) return keep(Reason::kNotChosen);
       if (above_area(&settings_.delete_policy, mesh)) return keep(Reason::kAboveArea);
       return {.action = Action::kDelete};
-    case Level::kCollapse:
+    case Level::kCollapse: {
       if (!collapse_taken) return keep(Reason::kNotChosen);
       if (above_area(&settings_.collapse_policy, mesh)) return keep(Reason::kAboveArea);
+      const FaceTarget target = face_target(mesh, faces);
       return {.action = Action::kCollapse,
               .placement = settings_.placement,
               .method = settings_.method_override.given ? settings_.method_override.method : mesh.method,
-              .target_faces = target_faces(mesh, faces),
+              .target_faces = target.whole,
+              .target_fraction = target.fraction,
               .quota_given = settings_.quota.kind != format::QuotaKind::kNone ||
                              mesh.quota_kind != format::QuotaKind::kNone};
+    }
     default:  // point and line
       if (above_area(nullptr, mesh)) return keep(Reason::kAboveArea);
       return {.action = mesh.level == Level::kPoint ? Action::kPoint : Action::kLine};
@@ -93,20 +96,22 @@ bool Decider::above_area(const Policy* policy, const MeshView& mesh) {
   return screen_area_px(mesh, view_, threshold, faces_measured_) > threshold;
 }
 
-std::uint32_t Decider::target_faces(const MeshView& mesh, std::uint64_t faces) const {
+Decider::FaceTarget Decider::face_target(const MeshView& mesh, std::uint64_t faces) const {
+  const auto share = [faces](std::uint64_t value, std::uint64_t of) -> FaceTarget {
+    const std::uint64_t product = faces * value;
+    return {static_cast<std::uint32_t>(product / of), static_cast<float>(product % of) / static_cast<float>(of)};
+  };
   if (settings_.quota.kind == format::QuotaKind::kFaces)
-    return totals_.collapse_faces == 0
-               ? 0
-               : static_cast<std::uint32_t>(settings_.quota.value * faces / totals_.collapse_faces);
+    return totals_.collapse_faces == 0 ? FaceTarget{} : share(settings_.quota.value, totals_.collapse_faces);
   const bool from_settings = settings_.quota.kind != format::QuotaKind::kNone;
   const auto kind = from_settings ? settings_.quota.kind : mesh.quota_kind;
-  const std::uint64_t value = from_settings ? settings_.quota.value : mesh.quota;
+  const std::uint32_t value = from_settings ? settings_.quota.value : mesh.quota;
   switch (kind) {
-    case format::QuotaKind::kFaces: return static_cast<std::uint32_t>(value);
-    case format::QuotaKind::kMillionths: return static_cast<std::uint32_t>(faces * value / kMillion);
+    case format::QuotaKind::kFaces: return {value, 0};
+    case format::QuotaKind::kMillionths: return share(value, kMillion);
     case format::QuotaKind::kNone: break;
   }
-  return static_cast<std::uint32_t>(faces * kDefaultQuotaMillionths / kMillion);
+  return share(kDefaultQuotaMillionths, kMillion);
 }
 
 }  // namespace usuzumi::firmware

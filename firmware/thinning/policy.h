@@ -91,6 +91,7 @@ struct Decision {
   Placement placement = Placement::kOptimal;  // kCollapse by Method::kQem
   Method method = Method::kQem;               // kCollapse, with the settings in the drawing data
   std::uint32_t target_faces = 0;             // kCollapse
+  float target_fraction = 0;                  // of a face: what rounding took off the quota; middle layers have it
   bool quota_given = false;                   // kCollapse: by the settings or the author, not the default
   bool layered = false;                       // kCollapse, by the mesh's chain of layers: the copy holds all of it
   bool vertices_move = false;                 // of layered
@@ -127,9 +128,14 @@ class Decider {
     bool next();
   };
 
+  struct FaceTarget {
+    std::uint32_t whole = 0;
+    float fraction = 0;
+  };
+
   bool policy_takes(const Policy& policy, const MeshView& mesh, Draw& draw);
   bool above_area(const Policy* policy, const MeshView& mesh);
-  std::uint32_t target_faces(const MeshView& mesh, std::uint64_t faces) const;
+  FaceTarget face_target(const MeshView& mesh, std::uint64_t faces) const;
 
   const ThinningSettings& settings_;
   const LevelTotals& totals_;

@@ -158,6 +158,25 @@ TEST(Layers, AQuotaBeyondTheLastLayerIsLeftToTheMethod) {
   EXPECT_EQ(bench.report.quotas_missed, 1u);
 }
 
+TEST(Layers, PartsOfAFaceMoveAMeshBetweenItsLayersToo) {
+  const TestMesh mesh = layered_hills(Method::kQem);
+  ThinningBench bench(container_rom({mesh, mesh}));
+  ThinningSettings settings;
+  settings.layers.mode = LayerMode::kQuota;
+  const auto expect_faces = [&](firmware::Quota quota, float faces) {
+    settings.quota = quota;
+    ASSERT_TRUE(bench.update(settings).ok());
+    for (const std::uint32_t n : {0u, 1u}) {
+      const LayerChainView chain = bench.thinning.layers(n)->view();
+      const auto above = static_cast<float>(chain.layer(1).faces), below = static_cast<float>(chain.layer(2).faces);
+      EXPECT_FLOAT_EQ(bench.thinning.drawn_layer(n), 1 + (above - faces) / (above - below)) << faces;
+    }
+  };
+  expect_faces({QuotaKind::kMillionths, 500'000}, 400);
+  expect_faces({QuotaKind::kMillionths, 500'600}, 400.48f);
+  expect_faces({QuotaKind::kFaces, 2 * 400 + 1}, 400.5f);  // shared by both
+}
+
 TEST(Layers, AnotherMethodThanTheChainsThinsWithoutIt) {
   ThinningBench bench(container_rom({layered_hills(Method::kQem)}));
   ThinningSettings settings = with_faces(400);
