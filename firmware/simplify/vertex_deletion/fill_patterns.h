@@ -16,9 +16,9 @@ inline constexpr std::uint32_t kMostCornersOfAllFills = 6;  // up to this many c
 inline constexpr std::uint32_t kMostFills = 19;
 inline constexpr std::uint32_t kMostTriples = 20;  // of corners of a hexagon
 
-/// Three corners of a polygon, rising: they run around the triangle the way the polygon's corners run around it. A whole
-/// word, so that a copy is one: of three bytes the compiler makes a memcpy(), and libraries' read half-words at odd
-/// addresses, which a processor may be told to refuse.
+/// Three corners of a polygon, rising: they run around the triangle the way the polygon's corners run around it. A
+/// whole word, so that a copy is one: of three bytes the compiler makes a memcpy(), and libraries' read half-words at
+/// odd addresses, which a processor may be told to refuse.
 struct alignas(4) FillTriangle {
   std::uint8_t a = 0, b = 0, c = 0;
   friend constexpr bool operator==(FillTriangle, FillTriangle) = default;

@@ -62,7 +62,10 @@ void compare(const Model& model, double percent, const Named& method) {
   const auto target = static_cast<std::size_t>(static_cast<double>(input.face_count()) * percent / 100);
   Run ours, qem;
   run(input, method.method, target, ours);
-  if (!ours.ok) return;  // a method of a later release
+  if (!ours.ok) {
+    std::printf("%-15s %-20s %3.0f%%: cannot be thinned\n", method.name, model.name.c_str(), percent);
+    return;
+  }
   // QEM to what the method reached, which may be more than was asked for.
   const std::size_t reached = ours.mesh.face_count();
   for (int round = 0; round < kRounds; ++round) {
