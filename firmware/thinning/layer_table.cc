@@ -6,15 +6,14 @@
 #include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/layers/layer_chain_builder.h"
 #include "firmware/thinning/ram_copy.h"
+#include "firmware/thinning/whole_mesh.h"
 
 namespace usuzumi::firmware {
 namespace {
 
 /// Every mesh is copied whole in no more bytes than this.
 std::uint64_t whole_bytes(const MeshView& mesh) {
-  const std::uint64_t vertex = sizeof(Vec3) + sizeof(PackedNormal) + (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
-                               (mesh.textured ? sizeof(TexCoord) : 0);
-  return mesh.positions.size() * vertex + (mesh.indices.size() + 3) / 4 * 4;
+  return std::uint64_t{mesh.positions.size()} * vertex_bytes(mesh, true) + (mesh.indices.size() + 3) / 4 * 4;
 }
 
 /// The same with its chain, whatever the mode.
@@ -78,7 +77,7 @@ Status LayerTable::begin(const DrawingData& data, Arena& ram, std::span<const st
 /// Makes the mesh's chain where RAM then still holds `needed` bytes and what its block is larger than the mesh; returns
 /// that difference.
 std::uint64_t LayerTable::make(const MeshView& mesh, std::span<const std::uint32_t> quotas, std::uint64_t needed,
-                                    Arena& ram, LayeredMesh& layered) {
+                               Arena& ram, LayeredMesh& layered) {
   const std::size_t mark = ram.used();
   const auto made = make_mesh_layers(mesh, mesh.proper_face_count(), quotas, Placement::kOptimal, ram);
   if (!made.ok()) return 0;  // it is thinned by its method whenever asked for

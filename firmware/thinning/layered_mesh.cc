@@ -8,17 +8,9 @@
 namespace usuzumi::firmware {
 namespace {
 
-std::uint32_t index_bytes(const LayerChainView& chain) { return chain.store_count() > 65536 ? 4 : 2; }
-
 /// Whether the engine reads the vertices in ROM: all of the store are there, and none moves.
 bool vertices_stay_in_rom(const LayerChainView& chain, bool vertices_move, bool rom_on_bus) {
   return rom_on_bus && !vertices_move && chain.store_count() == chain.vertex_count();
-}
-
-std::uint32_t vertex_bytes(const MeshView& mesh) {
-  return static_cast<std::uint32_t>(sizeof(Vec3) + (mesh.normals.empty() ? 0 : sizeof(PackedNormal)) +
-                                    (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
-                                    (mesh.textured ? sizeof(TexCoord) : 0));
 }
 
 VertexStreams given_streams(const MeshView& mesh) {
@@ -41,7 +33,8 @@ StoreTarget store_of(const RamCopy& copy, std::span<std::byte> block, std::uint3
 }
 
 LayerReplay replay_of(const LayerChainView& chain, RamCopy& copy, std::uint32_t n, std::uint32_t step) {
-  return {chain, copy.block_memory(n).subspan(copy.mesh(n).index_offset), index_bytes(chain), copy.live_faces(n), step};
+  return {chain, copy.block_memory(n).subspan(copy.mesh(n).index_offset), index_bytes(chain.store_count()),
+          copy.live_faces(n), step};
 }
 
 /// Vertices that stand between two layers go back to where the first has them, so that others may move.
@@ -80,8 +73,9 @@ float layer_of_place(const LayerChainView& chain, const ChainPlace& place) {
 
 std::uint64_t layered_bytes(const MeshView& mesh, const LayerChainView& chain, bool vertices_move, bool rom_on_bus) {
   const std::uint64_t vertices = vertices_stay_in_rom(chain, vertices_move, rom_on_bus) ? 0 : chain.store_count();
-  const std::uint64_t indices = std::uint64_t{3} * chain.face_count() * index_bytes(chain);
-  return vertices * vertex_bytes(mesh) + (indices + 3) / 4 * 4 + std::uint64_t{4} * chain.group_count();
+  const std::uint64_t indices = std::uint64_t{3} * chain.face_count() * index_bytes(chain.store_count());
+  return vertices * vertex_bytes(mesh, !mesh.normals.empty()) + (indices + 3) / 4 * 4 +
+         std::uint64_t{4} * chain.group_count();
 }
 
 bool copy_layered(const MeshView& mesh, LayeredMesh& layered, bool vertices_move, RamCopy& copy, Clock& clock,
@@ -106,12 +100,13 @@ bool copy_layered(const MeshView& mesh, LayeredMesh& layered, bool vertices_move
       out.texture_coordinate_offset = append_store(mesh.texture_coordinates, chain.added().texture_coordinates);
   }
   out.topology = command::Topology::kTriangles;
-  out.index_format = index_bytes(chain) == 2 ? command::IndexFormat::kU16 : command::IndexFormat::kU32;
+  const std::uint32_t index_size = index_bytes(out.vertex_count);
+  out.index_format = index_size == 2 ? command::IndexFormat::kU16 : command::IndexFormat::kU32;
   out.index_count = 3 * chain.face_count();
   out.faces = chain.face_count();
   out.has_group_words = true;
   out.index_offset = block.bytes();
-  block.extend(std::size_t{out.index_count} * index_bytes(chain));
+  block.extend(std::size_t{out.index_count} * index_size);
   block.extend(std::size_t{4} * chain.group_count());
   if (block.full()) return false;
   copy.add(mesh.number, out, block.bytes());
@@ -129,7 +124,8 @@ bool copy_layered(const MeshView& mesh, LayeredMesh& layered, bool vertices_move
     copy.compact();
     return false;
   }
-  if (out.vertices_in_rom) report.bytes_left_in_rom = out.vertex_count * vertex_bytes(mesh);
+  if (out.vertices_in_rom)
+    report.bytes_left_in_rom = out.vertex_count * vertex_bytes(mesh, !mesh.normals.empty());
   clock.charge(CpuWork::kVertexCopied, out.vertices_in_rom ? 0 : out.vertex_count);
   clock.charge(CpuWork::kIndexCopied, out.index_count);
   return true;

@@ -81,15 +81,6 @@ Unpacked unpack_mesh(const MeshView& mesh, std::uint32_t faces, bool with_source
   return u;
 }
 
-std::uint32_t index_bytes(std::uint32_t vertex_count) { return vertex_count > 65536 ? 4 : 2; }
-
-/// Of a vertex in the streams that the mesh has; `normals` where some are made for it.
-std::uint32_t vertex_bytes(const MeshView& mesh, bool normals) {
-  return static_cast<std::uint32_t>(sizeof(Vec3) + (normals ? sizeof(PackedNormal) : 0) +
-                                    (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
-                                    (mesh.textured ? sizeof(TexCoord) : 0));
-}
-
 /// Whether indices into ROM take less RAM than the vertices that are left with indices of their own. Of a mesh without
 /// normals in ROM all those made count, as they are numbered like its vertices.
 bool smaller_in_place(const MeshView& mesh, const WorkingMesh& work) {

@@ -63,6 +63,12 @@ std::uint32_t group_of(const MeshView& mesh, std::uint32_t vertex) {
 
 }  // namespace
 
+std::uint32_t vertex_bytes(const MeshView& mesh, bool normals) {
+  return static_cast<std::uint32_t>(sizeof(Vec3) + (normals ? sizeof(PackedNormal) : 0) +
+                                    (mesh.colours.empty() ? 0 : sizeof(Rgba8)) +
+                                    (mesh.textured ? sizeof(TexCoord) : 0));
+}
+
 CopyMesh described(const MeshView& mesh) {
   CopyMesh copy;
   copy.two_sided = mesh.two_sided();

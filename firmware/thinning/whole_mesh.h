@@ -12,6 +12,12 @@
 
 namespace usuzumi::firmware {
 
+/// Of one index into so many vertices.
+constexpr std::uint32_t index_bytes(std::uint32_t vertex_count) { return vertex_count > 65536 ? 4 : 2; }
+
+/// Of a vertex in the streams that the mesh has; `normals` where some are made for it.
+std::uint32_t vertex_bytes(const MeshView& mesh, bool normals);
+
 /// What a mesh's blocks have in common.
 CopyMesh described(const MeshView& mesh);
 
