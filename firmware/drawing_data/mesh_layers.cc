@@ -36,13 +36,7 @@ bool unpack(const MeshView& mesh, std::uint32_t faces, Arena& arena, WorkingMesh
   work.groups = arena.allocate<MaterialGroup>(mesh.groups.size());
   work.indices = arena.allocate<std::uint32_t>(std::size_t{3} * faces);
   if (!fits || work.groups.size() != mesh.groups.size() || work.indices.size() != std::size_t{3} * faces) return false;
-  for (std::size_t g = 0; g < work.groups.size(); ++g) work.groups[g] = {0, mesh.groups[g].vertex_end};
-  for_each_proper_face(mesh, [&](std::uint32_t f, const std::uint32_t* corners, std::uint32_t g) {
-    for (std::size_t k = 0; k < 3; ++k) work.indices[std::size_t{3} * f + k] = corners[k];
-    if (!work.groups.empty()) work.groups[g].face_end = f + 1;
-  });
-  for (std::size_t g = 1; g < work.groups.size(); ++g)
-    work.groups[g].face_end = std::max(work.groups[g].face_end, work.groups[g - 1].face_end);
+  mesh.write_proper_faces(work.indices, work.groups);
   work.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
   work.face_count = faces;
   return true;

@@ -73,4 +73,19 @@ std::uint32_t MeshView::proper_face_count() const {
   return count;
 }
 
+void MeshView::write_proper_faces(std::span<std::uint32_t> out, std::span<MaterialGroup> material_groups) const {
+  std::uint32_t proper = 0, corners[3], g = 0;
+  const auto end_groups_before = [&](std::uint32_t f) {
+    for (; g < material_groups.size() && groups[g].face_end <= f; ++g)
+      material_groups[g] = {proper, groups[g].vertex_end};
+  };
+  for (std::uint32_t f = 0; f < face_count(); ++f) {
+    end_groups_before(f);
+    if (!proper_face(f, corners)) continue;
+    for (std::size_t k = 0; k < 3; ++k) out[std::size_t{3} * proper + k] = corners[k];
+    ++proper;
+  }
+  end_groups_before(face_count());
+}
+
 }  // namespace usuzumi::firmware

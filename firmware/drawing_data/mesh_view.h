@@ -97,6 +97,9 @@ struct MeshView {
   bool proper_face(std::uint32_t f, std::uint32_t out[3]) const;
   /// Faces with their corners at three places. Looks at every face.
   std::uint32_t proper_face_count() const;
+  /// The proper faces as a triangle list, which `indices` have just room for, and where each group's end among them;
+  /// `material_groups` are as many as groups, or none.
+  void write_proper_faces(std::span<std::uint32_t> indices, std::span<MaterialGroup> material_groups = {}) const;
 };
 
 }  // namespace usuzumi::firmware

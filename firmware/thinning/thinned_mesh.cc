@@ -37,17 +37,6 @@ struct Unpacked {
   bool fits = false;
 };
 
-/// Groups end at the proper faces, which expand_faces() writes alone.
-void fill_groups(const MeshView& mesh, std::span<MaterialGroup> groups) {
-  std::uint32_t face = 0, proper = 0, corners[3];
-  for (std::uint32_t g = 0; g < groups.size(); ++g) {
-    const format::FaceGroup group = mesh.group(g);
-    for (; face < group.face_end; ++face)
-      if (mesh.proper_face(face, corners)) ++proper;
-    groups[g] = {proper, group.vertex_end};
-  }
-}
-
 Unpacked unpack_mesh(const MeshView& mesh, std::uint32_t faces, bool with_sources, Arena& arena) {
   Unpacked u;
   bool fits = true;
@@ -76,8 +65,7 @@ Unpacked unpack_mesh(const MeshView& mesh, std::uint32_t faces, bool with_source
   u.work.edge_values = mesh.edge_values;
   u.work.vertex_count = static_cast<std::uint32_t>(vertices);
   u.work.face_count = faces;
-  expand_faces(mesh, u.work.indices);
-  fill_groups(mesh, u.work.groups);
+  mesh.write_proper_faces(u.work.indices, u.work.groups);
   return u;
 }
 

@@ -23,7 +23,7 @@ std::uint32_t append_made_normals(const MeshView& mesh, std::uint32_t faces, Blo
   const auto normals = scratch.allocate<PackedNormal>(mesh.positions.size());
   const auto indices = scratch.allocate<std::uint32_t>(std::size_t{3} * faces);
   if (normals.empty() || indices.empty()) return kNoStream;
-  expand_faces(mesh, indices);
+  mesh.write_proper_faces(indices);
   if (!make_smooth_normals(mesh.positions, indices, normals, scratch)) return kNoStream;
   return block.append(std::span<const PackedNormal>(normals));
 }
@@ -73,15 +73,6 @@ CopyMesh described(const MeshView& mesh) {
   CopyMesh copy;
   copy.two_sided = mesh.two_sided();
   return copy;
-}
-
-void expand_faces(const MeshView& mesh, std::span<std::uint32_t> indices) {
-  std::size_t used = 0;
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    std::uint32_t v[3];
-    if (!mesh.proper_face(f, v)) continue;
-    for (const std::uint32_t corner : v) indices[used++] = corner;
-  }
 }
 
 bool copy_as_is(const MeshView& mesh, std::uint32_t faces, RamCopy& copy, Clock& clock) {

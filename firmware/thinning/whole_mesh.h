@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "firmware/drawing_data/mesh_view.h"
 #include "firmware/thinning/policy.h"
@@ -20,9 +19,6 @@ std::uint32_t vertex_bytes(const MeshView& mesh, bool normals);
 
 /// What a mesh's blocks have in common.
 CopyMesh described(const MeshView& mesh);
-
-/// Writes the mesh's proper faces as a triangle list, which `indices` have just room for.
-void expand_faces(const MeshView& mesh, std::span<std::uint32_t> indices);
 
 /// Level 1: the mesh as it stands in ROM. False where RAM has no room for it.
 bool copy_as_is(const MeshView& mesh, std::uint32_t faces, RamCopy& copy, Clock& clock);
