@@ -97,9 +97,9 @@ void find_extent(const Surface& surface, PositionOf position_of, Vec3& low, Vec3
   }
 }
 
+inline constexpr std::uint32_t kNoWedge = 0xFFFFFFFFu;
 /// What stands for `wedge` at vertex `v`: itself while a face names it there, else the first that one names; kNoWedge
 /// where `v` has no face.
-inline constexpr std::uint32_t kNoWedge = 0xFFFFFFFFu;
 std::uint32_t standing_wedge(const Surface& surface, std::uint32_t v, std::uint32_t wedge);
 
 }  // namespace usuzumi::firmware

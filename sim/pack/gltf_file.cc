@@ -164,13 +164,11 @@ std::optional<Transform> local_transform(const json& node) {
   return from_parts(translation, rotation, scale);
 }
 
-/// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by
-/// identifier there.
 std::string name_of(const json& object) {
   return object.contains("name") && object["name"].is_string() ? object["name"].get<std::string>() : std::string();
 }
 
-/// By identifier, of those that have one.
+/// Names in glTF 1.0's `kind`, by identifier, of those that have one.
 std::map<std::string, std::string> read_names(const json& root, const char* kind) {
   std::map<std::string, std::string> names;
   const auto all = root.find(kind);
@@ -180,6 +178,8 @@ std::map<std::string, std::string> read_names(const json& root, const char* kind
   return names;
 }
 
+/// Names, thinning properties and transforms of glTF 1.0's `kind` ("nodes" or "meshes"), which are objects by
+/// identifier there.
 std::map<std::string, Gltf1Label> read_labels(const fs::path& path, const json& root, const char* kind,
                                               std::vector<std::string>& notes) {
   std::map<std::string, Gltf1Label> labels;

@@ -15,7 +15,7 @@ struct SeamRelation {
   bool from_cross = false;  // IsCross(vs)
   bool to_seam = false;     // IsSeam(vt)
   bool edge_seam = false;   // IsSeam(vs, vt)
-  bool splits = false;         // a seam that ends at vt begins with the edge: one wedge of vs, several of vt
+  bool splits = false;      // a seam that ends at vt begins with the edge: one wedge of vs, several of vt
   bool leaves_border = false;  // vs lies on an open border and the edge does not: never collapsed
 
   /// Some term of the cost is a penalty.
@@ -47,10 +47,10 @@ class Seams {
   /// One of the two is a seam vertex.
   bool touches(std::uint32_t a, std::uint32_t b) const { return ((words_[a] | words_[b]) & kSeam) != 0; }
   bool is_cross(std::uint32_t v) const { return (words_[v] & kCross) != 0; }
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   /// IsSeam(vs, vt), but for an edge along which a seam would fold: where vs is no cross and going to vt lays its two
   /// seam edges onto each other, an island, or a strip between two seams, of one face goes. Such an edge does not
   /// count.
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   struct Edge {
     bool is_seam = false;
     bool is_border = false;
