@@ -26,6 +26,13 @@ inline TestMesh hills(std::uint32_t n, std::uint32_t level) {
   return mesh;
 }
 
+/// The mesh with normals as hills have them.
+inline TestMesh with_smooth_normals(TestMesh mesh) {
+  for (const Vec3& p : mesh.positions)
+    mesh.normals.push_back(pack_normal(normalized(Vec3{-0.4f * p.x, 0.3f * p.y * p.y, 1})));
+  return mesh;
+}
+
 /// One square of side 2 * half around the origin, facing +z, as a strip.
 inline TestMesh square(float half, std::uint32_t level, float z = 0) {
   TestMesh mesh;

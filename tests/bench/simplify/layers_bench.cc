@@ -10,6 +10,7 @@
 #include "firmware/drawing_data/mesh_layers.h"
 #include "firmware/simplify/simplify.h"
 #include "tests/bench/simplify/models.h"
+#include "tests/support/indexed_view.h"
 
 namespace usuzumi::bench {
 namespace {
@@ -46,19 +47,6 @@ class Least {
   double ms_ = std::numeric_limits<double>::infinity();
 };
 
-MeshView view_of(const Mesh& mesh, Method method) {
-  MeshView view;
-  view.level = firmware::Level::kCollapse;
-  view.topology = firmware::format::Topology::kIndexed;
-  view.positions = mesh.positions;
-  view.normals = mesh.normals;
-  view.indices = std::as_bytes(std::span(mesh.indices));
-  view.index_bytes = 4;
-  view.index_count = static_cast<std::uint32_t>(mesh.indices.size());
-  view.method = method;
-  return view;
-}
-
 /// Whether it can be thinned to `faces`.
 bool thin(const Mesh& mesh, Method method, std::uint32_t faces, std::span<std::byte> memory) {
   Mesh work = mesh;
@@ -74,7 +62,7 @@ bool thin(const Mesh& mesh, Method method, std::uint32_t faces, std::span<std::b
 void compare(const Model& model, const Named& method) {
   Mesh mesh = model.mesh;
   mesh.normals.assign(mesh.positions.size(), pack_normal({0, 0, 1}));
-  const MeshView view = view_of(mesh, method.method);
+  const MeshView view = testing::indexed_view(mesh, method.method);
   const std::uint32_t faces = view.proper_face_count();
   std::vector<std::byte> memory(firmware::mesh_layers_bytes(view, faces));
   Arena arena(memory);

@@ -13,7 +13,9 @@
 
 #include "firmware/layers/middle_layer.h"
 #include "tests/firmware/layers/hand_log.h"
+#include "tests/support/indexed_view.h"
 #include "tests/support/mesh_shapes.h"
+#include "tests/support/seen_faces.h"
 
 namespace usuzumi {
 namespace {
@@ -111,44 +113,17 @@ testing::Mesh globe() {
   return mesh;
 }
 
-MeshView view_of(const testing::Mesh& mesh, Method method) {
-  MeshView view;
-  view.level = firmware::Level::kCollapse;
-  view.topology = firmware::format::Topology::kIndexed;
-  view.positions = mesh.positions;
-  view.normals = mesh.normals;
-  view.colours = mesh.colours;
-  view.texture_coordinates = mesh.texture_coordinates;
-  view.indices = std::as_bytes(std::span(mesh.indices));
-  view.index_bytes = 4;
-  view.index_count = static_cast<std::uint32_t>(mesh.indices.size());
-  view.method = method;
-  return view;
-}
-
-using Corner = std::array<std::uint32_t, 7>;
-using Picture = std::multiset<std::array<Corner, 3>>;
-
-Corner corner_of(Vec3 p, PackedNormal n, Rgba8 c, TexCoord t) {
-  Corner corner;
-  p = p + Vec3{};  // -0 is 0
-  std::memcpy(&corner[0], &p, 12);
-  corner[3] = n.bits;
-  corner[4] = c.bits;
-  std::memcpy(&corner[5], &t, 8);
-  return corner;
-}
-
-void add_face(Picture& picture, std::array<Corner, 3> face) {
-  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-  picture.insert(face);
-}
+using Corner = testing::SeenCorner;
+using Picture = testing::SeenFaceSet;
+using testing::add_face;
+using testing::corner_of;
+using testing::indexed_view;
 
 class MeshLayers : public ::testing::TestWithParam<Method> {
  protected:
   MeshLayers() : MeshLayers(body(), kQuotas) {}
   MeshLayers(const testing::Mesh& mesh, std::span<const std::uint32_t> quotas)
-      : mesh_(mesh), view_(view_of(mesh_, GetParam())), faces_(view_.proper_face_count()) {
+      : mesh_(mesh), view_(indexed_view(mesh_, GetParam())), faces_(view_.proper_face_count()) {
     memory_.resize(firmware::mesh_layers_bytes(view_, faces_));
     arena_ = Arena(memory_);
     const auto made = firmware::make_mesh_layers(view_, faces_, quotas, firmware::Placement::kOptimal, arena_);
@@ -331,7 +306,7 @@ TEST(MeshLayersRefused, MeshesWithoutNormalsAndWithRepeatedVertices) {
   testing::Mesh mesh = body();
   std::vector<std::byte> memory(4u << 20);
   Arena arena(memory);
-  MeshView view = view_of(mesh, Method::kHalfEdge);
+  MeshView view = indexed_view(mesh, Method::kHalfEdge);
   view.normals = {};
   const auto make = [&] {
     return firmware::make_mesh_layers(view, view.proper_face_count(), kQuotas, firmware::Placement::kOptimal, arena)
@@ -346,7 +321,7 @@ TEST(MeshLayersRefused, MeshesWithoutNormalsAndWithRepeatedVertices) {
     mesh.positions.push_back(from.positions[v]);
     mesh.normals.push_back(from.normals[v]);
   }
-  view = view_of(mesh, Method::kHalfEdge);
+  view = indexed_view(mesh, Method::kHalfEdge);
   EXPECT_EQ(make(), StatusCode::kUnsupported);
   EXPECT_EQ(arena.used(), 0u);
 }

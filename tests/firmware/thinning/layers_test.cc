@@ -33,10 +33,8 @@ constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
 constexpr std::uint32_t kAll = 800;  // faces of hills(20)
 
 TestMesh smooth_hills(Method method, std::uint32_t n = 20) {
-  TestMesh mesh = hills(n, 3);
+  TestMesh mesh = testing::with_smooth_normals(hills(n, 3));
   mesh.method = method;
-  for (const Vec3& p : mesh.positions)
-    mesh.normals.push_back(pack_normal(normalized(Vec3{-0.4f * p.x, 0.3f * p.y * p.y, 1})));
   return mesh;
 }
 

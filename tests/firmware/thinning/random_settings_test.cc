@@ -32,18 +32,13 @@ using testing::RomImage;
 using testing::TestMesh;
 using testing::ThinningBench;
 using testing::two_hills;
+using testing::with_smooth_normals;
 using Method = firmware::format::Method;
 using QuotaKind = firmware::format::QuotaKind;
 
 constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000};
 constexpr std::uint32_t kFewQuotas[] = {1'000'000, 700'000};
 constexpr std::uint32_t kTelltale = firmware::format::kFlagTelltale;
-
-TestMesh with_normals(TestMesh mesh) {
-  for (const Vec3& p : mesh.positions)
-    mesh.normals.push_back(pack_normal(normalized(Vec3{-0.4f * p.x, 0.3f * p.y * p.y, 1})));
-  return mesh;
-}
 
 TestMesh made_by(TestMesh mesh, Method method) {
   mesh.method = method;
@@ -63,32 +58,32 @@ std::vector<TestMesh> every_kind() {
   const auto layered = [&](const TestMesh& mesh, std::span<const std::uint32_t> quotas = kQuotas) {
     return testing::with_layers(mesh, quotas, appearance);
   };
-  TestMesh coloured = with_normals(hills(9, 3));
+  TestMesh coloured = with_smooth_normals(hills(9, 3));
   for (std::size_t v = 0; v < coloured.positions.size(); ++v)
     coloured.colours.push_back(rgba8(static_cast<std::uint32_t>(v), 255 - static_cast<std::uint32_t>(v), 90));
-  TestMesh small_only = layered(with_normals(hills(8, 3)));
+  TestMesh small_only = layered(with_smooth_normals(hills(8, 3)));
   small_only.area_threshold_px = 2500;
-  TestMesh lamp = layered(with_normals(hills(7, 3)));
+  TestMesh lamp = layered(with_smooth_normals(hills(7, 3)));
   lamp.flags = kTelltale;
-  TestMesh quoted = layered(with_normals(mapped_hills(8, 3, 0)), kFewQuotas);
+  TestMesh quoted = layered(with_smooth_normals(mapped_hills(8, 3, 0)), kFewQuotas);
   quoted.quota_kind = QuotaKind::kFaces;
   quoted.quota = 60;
-  TestMesh deletable = with_normals(hills(6, 2)), sign = with_normals(hills(5, 2));
+  TestMesh deletable = with_smooth_normals(hills(6, 2)), sign = with_smooth_normals(hills(5, 2));
   deletable.area_threshold_px = 5000;
   sign.flags = kTelltale;
-  return {with_normals(hills(6, 1)),
-          layered(with_normals(mapped_hills(12, 3, 0))),
+  return {with_smooth_normals(hills(6, 1)),
+          layered(with_smooth_normals(mapped_hills(12, 3, 0))),
           layered(made_by(coloured, Method::kEdgeRemoval)),
-          layered(made_by(with_normals(mapped_hills(10, 3, 0)), Method::kHalfEdge)),
-          layered(made_by(with_normals(hills(9, 3)), Method::kVertexDeletion)),
-          layered(with_normals(two_hills(6, 3, 0, 3))),
-          layered(made_by(with_normals(two_hills(5, 3, 3, 1)), Method::kHalfEdge)),
+          layered(made_by(with_smooth_normals(mapped_hills(10, 3, 0)), Method::kHalfEdge)),
+          layered(made_by(with_smooth_normals(hills(9, 3)), Method::kVertexDeletion)),
+          layered(with_smooth_normals(two_hills(6, 3, 0, 3))),
+          layered(made_by(with_smooth_normals(two_hills(5, 3, 3, 1)), Method::kHalfEdge)),
           small_only,
           lamp,
           quoted,
-          spoilt(layered(with_normals(hills(8, 3)))),
-          with_normals(hills(7, 3)),                             // without layers
-          made_by(with_normals(two_hills(5, 3, 1, 0)), Method::kHalfEdge),
+          spoilt(layered(with_smooth_normals(hills(8, 3)))),
+          with_smooth_normals(hills(7, 3)),                             // without layers
+          made_by(with_smooth_normals(two_hills(5, 3, 1, 0)), Method::kHalfEdge),
           hills(6, 3),                                           // normals are made for it
           deletable,
           sign,

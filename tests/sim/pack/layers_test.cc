@@ -14,6 +14,7 @@
 #include "hal/crc32.h"
 #include "tests/sim/pack/pictures.h"
 #include "tests/sim/pack/support.h"
+#include "tests/support/seen_faces.h"
 
 namespace usuzumi {
 namespace {
@@ -86,18 +87,10 @@ GltfBuilder ball() {
   return b;
 }
 
-using Corner = std::array<std::uint32_t, 7>;
+using Corner = testing::SeenCorner;
 using Face = std::array<Corner, 3>;
-
-Corner corner_of(Vec3 p, PackedNormal n, Rgba8 c, TexCoord t) {
-  Corner corner{};
-  p = p + Vec3{};  // -0 is 0
-  std::memcpy(&corner[0], &p, 12);
-  corner[3] = n.bits;
-  corner[4] = c.bits;
-  std::memcpy(&corner[5], &t, 8);
-  return corner;
-}
+using testing::add_face;
+using testing::corner_of;
 
 template <class Streams>
 Corner corner_at(const Streams& of, std::uint32_t v) {
@@ -106,12 +99,7 @@ Corner corner_at(const Streams& of, std::uint32_t v) {
 }
 
 /// The faces of each group.
-using Picture = std::vector<std::multiset<Face>>;
-
-void add_face(std::multiset<Face>& faces, Face face) {
-  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-  faces.insert(face);
-}
+using Picture = std::vector<testing::SeenFaceSet>;
 
 /// The mesh thinned by its own method at once, without a chain.
 Picture thinned(const MeshView& mesh, std::uint32_t target) {
