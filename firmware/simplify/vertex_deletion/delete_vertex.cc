@@ -3,6 +3,8 @@
 namespace usuzumi::firmware {
 namespace {
 
+constexpr std::uint32_t kNoFace = 0xFFFFFFFFu, kNoCornerOfSector = 0xFFFFFFFFu;
+
 void link_corner(Surface& s, std::uint32_t v, Corner c) {
   s.links[c] = s.first_corner(v);
   s.vertices[v].first_corner = c;
@@ -25,28 +27,40 @@ PackedNormal face_direction(const Surface& s, std::uint32_t a, std::uint32_t b, 
   return l > 0 ? pack_normal(normal * (1.0f / l)) : PackedNormal{0};
 }
 
-// One sector's fill. Faces whose slots are left over go to `dead`; returns how many.
-std::uint32_t fill_sector(Surface& s, const Ring& ring, const Sector& sector, std::uint32_t fill, Corner* dead,
-                          CollapseLog* log) {
+// A side of the polygon, which is a face's, and the corner across from it.
+struct SideOfFill {
+  std::uint32_t face = kNoFace, apex = 0;
+};
+
+// The side that triangle `f` has: its face names the apex in the vertex's stead and keeps its other wedges. A fan's is
+// the one that its heir is not on: what that face becomes while the vertex moves to the heir.
+SideOfFill side_of(const FillTriangle& f, const Sector& sector, std::uint32_t heir) {
+  const bool closed = sector.corner_count == sector.face_count;  // the last side is that of the last face
+  if (f.b == f.a + 1 && heir != f.a && heir != f.b) return {f.a, f.c};
+  if (f.c == f.b + 1 && heir != f.b && heir != f.c) return {f.b, f.a};
+  if (closed && f.a == 0 && f.c + 1u == sector.face_count && heir != f.c && heir != f.a) return {f.c, f.b};
+  return {};
+}
+
+// One sector's fill. `heir` is the corner of the sector that the vertex moves to where the fill is a fan, else
+// kNoCornerOfSector. Faces whose slots are left over go to `dead`; returns how many.
+std::uint32_t fill_sector(Surface& s, const Ring& ring, const Sector& sector, std::uint32_t fill, std::uint32_t heir,
+                          Corner* dead, CollapseLog* log) {
   const std::uint32_t* wedges = ring.wedges + sector.first_corner;
   const std::uint32_t* vertices = ring.vertices + sector.first_corner;
   const Corner* corners = ring.corners + sector.first_face;
-  const bool closed = sector.corner_count == sector.face_count;  // its last side is that of its last face
   bool taken[kMostRingFaces] = {};
   FillTriangle inner[kMostCorners];  // without a side on the polygon
   std::uint32_t inner_count = 0;
   for (std::uint32_t t = 0; t + 2 < sector.corner_count; ++t) {
     const FillTriangle f = fill_triangle(sector.corner_count, fill, t);
-    std::uint32_t face = kMostRingFaces, apex = 0;
-    if (f.b == f.a + 1) face = f.a, apex = f.c;
-    else if (f.c == f.b + 1) face = f.b, apex = f.a;
-    else if (closed && f.a == 0 && f.c + 1u == sector.face_count) face = f.c, apex = f.b;
-    if (face == kMostRingFaces) {
+    const SideOfFill side = side_of(f, sector, heir);
+    if (side.face == kNoFace) {
       inner[inner_count++] = f;
       continue;
     }
-    taken[face] = true;
-    name(s, corners[face], wedges[apex], vertices[apex], log);
+    taken[side.face] = true;
+    name(s, corners[side.face], wedges[side.apex], vertices[side.apex], log);
   }
   std::uint32_t dead_count = 0;
   for (std::uint32_t face = 0; face < sector.face_count; ++face) {
@@ -84,15 +98,18 @@ std::uint32_t heir_of(const Surface& s, const Ring& ring, std::uint32_t fill) {
   return nearest;
 }
 
-void tell_successions(const Surface& s, const Ring& ring, std::uint32_t fill, CollapseLog& log) {
-  const std::uint32_t heir = heir_of(s, ring, fill);
+// The same corner in the second sector, which runs along the seam the other way.
+std::uint32_t heir_across(const Ring& ring, std::uint32_t heir) {
+  return heir == 0 ? ring.sectors[1].corner_count - 1 : 0;
+}
+
+void tell_successions(const Surface& s, const Ring& ring, std::uint32_t heir, CollapseLog& log) {
   const std::uint32_t one = s.indices[corner_index(ring.corners[0])];
   log.succeed(one, ring.wedges[heir]);
   if (!ring.has_seam()) return;
   const Sector& sector = ring.sectors[1];
   const std::uint32_t other = s.indices[corner_index(ring.corners[sector.first_face])];
-  // The second sector runs along the seam the other way.
-  if (other != one) log.succeed(other, ring.wedges[sector.first_corner + (heir == 0 ? sector.corner_count - 1 : 0)]);
+  if (other != one) log.succeed(other, ring.wedges[sector.first_corner + heir_across(ring, heir)]);
 }
 
 // What the ring's faces name at the polygon's corners.
@@ -123,16 +140,20 @@ void tell_left_wedges(const Surface& s, const RimWedges& rim, CollapseLog& log) 
 }  // namespace
 
 std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8_t fills[2], CollapseLog* log) {
+  const std::uint32_t heir = heir_of(surface, ring, fills[0]);
   RimWedges rim;
   if (log != nullptr) {
     log->begin_step();
-    tell_successions(surface, ring, fills[0], *log);
+    tell_successions(surface, ring, heir, *log);
     rim = rim_wedges(surface, ring);
   }
   Corner dead[kMostRingFaces];
   std::uint32_t dead_count = 0;
-  for (std::uint32_t k = 0; k < ring.sector_count; ++k)
-    dead_count += fill_sector(surface, ring, ring.sectors[k], fills[k], dead + dead_count, log);
+  for (std::uint32_t k = 0; k < ring.sector_count; ++k) {
+    const std::uint32_t in_sector = k == 0 ? heir : heir_across(ring, heir);
+    dead_count += fill_sector(surface, ring, ring.sectors[k], fills[k],
+                              is_fan(fills[k]) ? in_sector : kNoCornerOfSector, dead + dead_count, log);
+  }
   for (std::uint32_t i = 0; i < dead_count; ++i) {
     const std::uint32_t face = dead[i] >> 2;
     surface.indices[std::size_t{face} * 3] = kDeadFace;
