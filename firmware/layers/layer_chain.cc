@@ -69,7 +69,7 @@ class LayerChainChecker {
     if (h.layer_count == 0 || h.layer_count > format::kMaxLayers)
       return damaged("chain of layers: there must be 1 to 16 layers, at byte offset",
                      offsetof(LayerChainHeader, layer_count));
-    if (h.added_count > 0xFFFFFFFEu - h.vertex_count)
+    if (h.vertex_count > format::kMaxStoreVertices || h.added_count > format::kMaxStoreVertices - h.vertex_count)
       return damaged("chain of layers: too many vertices, at byte offset", offsetof(LayerChainHeader, added_count));
     if (h.reserved[0] != 0 || h.reserved[1] != 0)
       return damaged("chain of layers: reserved words must be 0, at byte offset", offsetof(LayerChainHeader, reserved));
@@ -199,7 +199,7 @@ class LayerChainChecker {
     for (std::uint32_t n = 0; n < view_.layer_count(); ++n) {
       const auto pairs = view_.pairs(n);
       for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (pairs[i].from >= view_.store_count() || pairs[i].to >= view_.store_count() ||
+        if (pairs[i].from >= view_.store_count() || pairs[i].vertex() >= view_.store_count() ||
             (i > 0 && pairs[i].from <= pairs[i - 1].from))
           return damaged_entry("chain of layers: a pair names no vertex or is out of order, at byte offset", pairs, i);
     }

@@ -40,7 +40,8 @@ class LayerChainBuilder {
     return step == 0 ? input_.mesh.face_count : log_.steps()[step - 1].faces_after;
   }
 
-  /// Layers end at the first step that meets their quota, or at the log's last.
+  /// Layers end at the first step that meets their quota, or at the log's last. Where that comes less than halfway to
+  /// the quota, it takes the place of the layer before: so short a layer would be passed in a frame or two.
   void choose_layers() {
     layers_[layer_count_++] = {0, input_.mesh.face_count, 0, kMillion};
     const auto last = static_cast<std::uint32_t>(log_.steps().size());
@@ -48,8 +49,13 @@ class LayerChainBuilder {
     for (const std::uint32_t quota : input_.quotas_millionths.subspan(1)) {
       const std::uint32_t faces = layer_faces(input_.mesh.face_count, quota);
       while (step < last && faces_at(step) > faces) ++step;
-      const format::Layer& before = layers_[layer_count_ - 1];
+      format::Layer& before = layers_[layer_count_ - 1];
       if (faces_at(step) >= before.faces) continue;
+      if (layer_count_ > 1 && faces_at(step) > faces && faces_at(step) - faces > before.faces - faces_at(step)) {
+        before.step = step;
+        before.faces = faces_at(step);
+        continue;
+      }
       layers_[layer_count_++] = {step, faces_at(step), 0, quota};
     }
     step_count_ = layers_[layer_count_ - 1].step;
@@ -190,7 +196,7 @@ class LayerChainBuilder {
       const auto between = successions(layers_[n].step, layers_[n + 1].step);
       for (std::size_t i = between.size(); i-- > 0;) {
         if (between[i].from >= store || between[i].to >= store) return contradiction(layers_[n].step);
-        target[between[i].from] = target[between[i].to];
+        target[between[i].from] = target[between[i].to] | (between[i].place_only != 0 ? format::kPairPlaceOnly : 0);
       }
       for (std::uint32_t v = 0; v < input_.mesh.vertex_count + added; ++v) {
         if (target[v] == v) continue;

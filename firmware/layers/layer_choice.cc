@@ -88,7 +88,9 @@ float layer_of_faces(const LayerChainView& chain, float faces) {
   if (faces >= static_cast<float>(layers[0].faces)) return 0;
   for (std::size_t n = 1; n < layers.size(); ++n) {
     const auto above = static_cast<float>(layers[n - 1].faces), below = static_cast<float>(layers[n].faces);
-    if (faces >= below) return static_cast<float>(n - 1) + (above - faces) / (above - below);
+    if (!(faces >= below)) continue;
+    const float most = std::sqrt(above), least = std::sqrt(below);
+    return static_cast<float>(n - 1) + (most - std::sqrt(faces)) / (most - least);
   }
   return static_cast<float>(layers.size() - 1);
 }

@@ -51,8 +51,9 @@ struct LayerChoiceSettings {
   /// Layers. What is asked for may tremble by this much either way, and the layer stands; larger than a camera's
   /// vibration moves it (a tenth of a layer is a change of size by a fortieth where layers fall to 60 %).
   float hysteresis = 0.1f;
-  /// Layers a frame. A whole layer takes eight frames, 0.13 s at 60 frames a second: fast, but no jump.
-  float largest_change = 0.125f;
+  /// Layers a frame. A whole layer takes 32 frames, half a second at 60 frames a second. In a quarter of that, textures
+  /// run across the screen so fast that a frame changes nearly as much as a switch of layers would.
+  float largest_change = 1.0f / 32;
 };
 
 /// A point on the screen that the viewer attends to, set by the application; pixels from the top left corner.
@@ -70,7 +71,8 @@ struct LayerMemory {
 };
 
 /// The layer, possibly between two, that has `faces` faces: 0 for all of them or more, layer_count() - 1 for those of
-/// the last layer or fewer. Falls as `faces` rises.
+/// the last layer or fewer. Falls as `faces` rises: between two layers in a straight line with their square root, which
+/// is how many faces lie side by side, so that what shrinks on the screen does so evenly.
 float layer_of_faces(const LayerChainView& chain, float faces);
 
 /// The layer for this frame, in [0, floor]; `memory` is the mesh's. `floor` is the coarsest layer its author allows,

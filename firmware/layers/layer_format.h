@@ -64,8 +64,17 @@ static_assert(sizeof(LayerChange) == 12);
 
 /// Store vertex `from` of a layer is not in the next; what it stood for is at `to` there. Rising by `from` in a layer.
 struct LayerPair {                   // 8 bytes
-  std::uint32_t from = 0, to = 0;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;              // a vertex; with kPairPlaceOnly
+  std::uint32_t vertex() const;
+  bool place_only() const;
 };
 static_assert(sizeof(LayerPair) == 8);
+/// Added to LayerPair::to: `from` goes to that place, but keeps its normal, colour and texture coordinate. None of its
+/// faces is in the next layer, and `to` is on another piece of texture.
+inline constexpr std::uint32_t kPairPlaceOnly = 1u << 31;
+inline constexpr std::uint32_t kMaxStoreVertices = 1u << 31;
+inline std::uint32_t LayerPair::vertex() const { return to & ~kPairPlaceOnly; }
+inline bool LayerPair::place_only() const { return (to & kPairPlaceOnly) != 0; }
 
 }  // namespace usuzumi::firmware::format

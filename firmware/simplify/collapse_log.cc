@@ -19,12 +19,12 @@ void CollapseLog::change(std::uint32_t corner, std::uint32_t from, std::uint32_t
   memory_.changes[change_count_++] = {corner, from, to};
 }
 
-void CollapseLog::succeed(std::uint32_t from, std::uint32_t to) {
+void CollapseLog::follow(std::uint32_t from, std::uint32_t to, bool whole) {
   if (succession_count_ == memory_.successions.size()) {
     full_ = true;
     return;
   }
-  memory_.successions[succession_count_++] = {from, to};
+  memory_.successions[succession_count_++] = {from, to & 0x7FFFFFFFu, whole ? 0u : 1u};
 }
 
 void CollapseLog::remove_face(std::uint32_t face) {

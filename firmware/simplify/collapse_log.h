@@ -1,7 +1,7 @@
 // What a level-3 method did, step by step, so that every state between can be reached again without searching.
 //
 // A method that is given a log (SimplifyOptions::log) tells it, for each collapse or deletion,
-//     begin_step(); change(...)*; succeed(...)*; remove_face(...)*; end_step();
+//     begin_step(); change(...)*; (succeed(...) | follow(...))*; remove_face(...)*; end_step();
 // in the numbers of the mesh AS GIVEN: corner 3 * face + k, and store vertices. A store vertex is an entry of the
 // vertex arrays as given, or one that the method made and handed to add_vertex(): methods that move a vertex add one
 // for each wedge of the vertex that stays, methods that do not add none. Corners begin at the vertices that the given
@@ -23,8 +23,13 @@ struct CornerChange {
 /// The store vertex `from` is gone after this step; what it stood for is closest to `to`: where it moves to when a
 /// middle layer is drawn.
 struct Succession {
-  std::uint32_t from = 0, to = 0;
+  std::uint32_t from = 0;
+  std::uint32_t to : 31 = 0;
+  /// No face that outlives the step named it, and `to` is another wedge of where its faces have gone: it goes to that
+  /// place, but is not to take over a colour or a piece of texture that has nothing to do with it.
+  std::uint32_t place_only : 1 = 0;
 };
+static_assert(sizeof(Succession) == 8);
 
 /// Everything a step changed: entries from the ends of the step before to these.
 struct CollapseStep {
@@ -60,7 +65,9 @@ class CollapseLog {
 
   void begin_step() {}
   void change(std::uint32_t corner, std::uint32_t from, std::uint32_t to);
-  void succeed(std::uint32_t from, std::uint32_t to);
+  void succeed(std::uint32_t from, std::uint32_t to) { follow(from, to, true); }
+  /// `whole` is false where the place alone is followed (Succession::place_only).
+  void follow(std::uint32_t from, std::uint32_t to, bool whole);
   void remove_face(std::uint32_t face);
   void end_step();
 

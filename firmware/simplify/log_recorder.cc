@@ -21,14 +21,18 @@ std::uint32_t LogRecorder::add_moved(std::uint32_t wedge, Vec3 position) {
   return store;
 }
 
+StandingWedge LogRecorder::standing(std::uint32_t v, std::uint32_t wedge) const {
+  return standing_wedge(working_.surface, working_.attributes.texture_coordinates, v, wedge);
+}
+
 // A wedge that no face names any more goes where its vertex goes: while a middle layer is drawn, its faces are still
 // there.
 void LogRecorder::leave_apex(const RemovedFace& removed, std::uint32_t first_store) {
-  const std::uint32_t stands = standing_wedge(working_.surface, removed.apex, removed.apex_wedge);
-  if (stands == removed.apex_wedge) return;
-  const std::uint32_t to = stands == kNoWedge ? first_store : log_->current(stands);
+  const StandingWedge stands = standing(removed.apex, removed.apex_wedge);
+  if (stands.wedge == removed.apex_wedge) return;
+  const std::uint32_t to = stands.wedge == kNoWedge ? first_store : log_->current(stands.wedge);
   if (log_->current(removed.apex_wedge) == to) return;  // told of by another face
-  log_->succeed(log_->current(removed.apex_wedge), to);
+  log_->follow(log_->current(removed.apex_wedge), to, stands.same_texture);
   log_->set_current(removed.apex_wedge, to);
 }
 
@@ -64,16 +68,18 @@ void LogRecorder::record(const CollapsedEdge& collapsed) {
   }
 
   // Wedges that only removed faces named, and those that another stands for now.
-  const auto leave = [&](std::uint32_t wedge, std::uint32_t heir) {
+  const auto leave = [&](std::uint32_t wedge, std::uint32_t heir, std::uint32_t kept) {
     if (log_->current(wedge) >= first_store) return;  // it stays, or was told of
-    const std::uint32_t to = log_->current(heir) >= first_store ? log_->current(heir) : first_store;
-    log_->succeed(log_->current(wedge), to);
+    const bool heir_stays = log_->current(heir) >= first_store;
+    const StandingWedge stands = heir_stays ? StandingWedge{heir, true} : standing(collapsed.vertex, kept);
+    const std::uint32_t to = log_->current(stands.wedge);
+    log_->follow(log_->current(wedge), to, stands.same_texture);
     log_->set_current(wedge, to);
   };
   for (std::uint32_t i = 0; i < collapsed.faces_removed; ++i) {
     const RemovedFace& removed = collapsed.removed[i];
-    leave(removed.removed_wedge, removed.kept_wedge);
-    leave(removed.kept_wedge, removed.removed_wedge);
+    leave(removed.removed_wedge, removed.kept_wedge, removed.kept_wedge);
+    leave(removed.kept_wedge, removed.removed_wedge, removed.kept_wedge);
     leave_apex(removed, first_store);
     log_->remove_face(removed.face);
   }

@@ -29,6 +29,7 @@ class LogRecorder {
 
  private:
   std::uint32_t add_moved(std::uint32_t wedge, Vec3 position);
+  StandingWedge standing(std::uint32_t v, std::uint32_t wedge) const;
   void leave_apex(const RemovedFace& removed, std::uint32_t first_store);
 
   CollapseLog* log_;

@@ -36,14 +36,19 @@ void unlink_corner(Surface& surface, std::uint32_t v, Corner c) {
   link = (link & ~kCornerMask) | after;
 }
 
-std::uint32_t standing_wedge(const Surface& surface, std::uint32_t v, std::uint32_t wedge) {
-  std::uint32_t other = kNoWedge;
+StandingWedge standing_wedge(const Surface& surface, const TexCoord* texture_coordinates, std::uint32_t v,
+                             std::uint32_t wedge) {
+  const auto same_texture = [&](std::uint32_t other) {
+    return texture_coordinates == nullptr || texture_coordinates[other] == texture_coordinates[wedge];
+  };
+  StandingWedge found;
   for (Corner c = surface.first_corner(v); c != kNoCorner; c = surface.next_corner_of(c)) {
     const std::uint32_t named = surface.indices[corner_index(c)];
-    if (named == wedge) return wedge;
-    if (other == kNoWedge) other = named;
+    if (named == wedge) return {wedge, true};
+    if (found.wedge != kNoWedge && (found.same_texture || !same_texture(named))) continue;
+    found = {named, same_texture(named)};
   }
-  return other;
+  return found;
 }
 
 }  // namespace usuzumi::firmware

@@ -98,8 +98,14 @@ void find_extent(const Surface& surface, PositionOf position_of, Vec3& low, Vec3
 }
 
 inline constexpr std::uint32_t kNoWedge = 0xFFFFFFFFu;
-/// What stands for `wedge` at vertex `v`: itself while a face names it there, else the first that one names; kNoWedge
-/// where `v` has no face.
-std::uint32_t standing_wedge(const Surface& surface, std::uint32_t v, std::uint32_t wedge);
+/// What stands for a wedge at its vertex.
+struct StandingWedge {
+  std::uint32_t wedge = kNoWedge;  // kNoWedge where the vertex has no face
+  bool same_texture = true;        // its texture coordinate is the wedge's
+};
+/// What stands for `wedge` at vertex `v`: itself while a face names it there, else the first that one names with its
+/// texture coordinate, else the first that one names. `texture_coordinates`: by wedge; null where there are none.
+StandingWedge standing_wedge(const Surface& surface, const TexCoord* texture_coordinates, std::uint32_t v,
+                             std::uint32_t wedge);
 
 }  // namespace usuzumi::firmware

@@ -241,8 +241,9 @@ void HalfEdgeSimplifier::tell_successions(std::uint32_t from, const WedgeMatchin
 void HalfEdgeSimplifier::tell_of_removed(const CollapsedEdge& collapsed) {
   CollapseLog& log = *options_.log;
   const auto leave = [&](std::uint32_t v, std::uint32_t wedge, std::uint32_t otherwise) {
-    const std::uint32_t stands = standing_wedge(surface_, v, wedge);
-    if (stands != wedge) log.succeed(wedge, stands == kNoWedge ? otherwise : stands);
+    const StandingWedge stands = standing_wedge(surface_, working_.attributes.texture_coordinates, v, wedge);
+    if (stands.wedge == wedge) return;
+    log.follow(wedge, stands.wedge == kNoWedge ? otherwise : stands.wedge, stands.same_texture);
   };
   for (std::uint32_t i = 0; i < collapsed.faces_removed; ++i) {
     const RemovedFace& removed = collapsed.removed[i];

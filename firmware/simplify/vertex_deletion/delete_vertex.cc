@@ -130,16 +130,18 @@ RimWedges rim_wedges(const Surface& s, const Ring& ring) {
 }
 
 // Those that no face names any more go where their vertex goes.
-void tell_left_wedges(const Surface& s, const RimWedges& rim, CollapseLog& log) {
+void tell_left_wedges(const Surface& s, const TexCoord* texture_coordinates, const RimWedges& rim, CollapseLog& log) {
   for (std::uint32_t i = 0; i < rim.count; ++i) {
-    const std::uint32_t stands = standing_wedge(s, rim.vertices[i], rim.wedges[i]);
-    if (stands != rim.wedges[i] && stands != kNoWedge) log.succeed(rim.wedges[i], stands);
+    const StandingWedge stands = standing_wedge(s, texture_coordinates, rim.vertices[i], rim.wedges[i]);
+    if (stands.wedge != rim.wedges[i] && stands.wedge != kNoWedge)
+      log.follow(rim.wedges[i], stands.wedge, stands.same_texture);
   }
 }
 
 }  // namespace
 
-std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8_t fills[2], CollapseLog* log) {
+std::uint32_t delete_vertex(Surface& surface, const TexCoord* texture_coordinates, const Ring& ring,
+                            const std::uint8_t fills[2], CollapseLog* log) {
   const std::uint32_t heir = heir_of(surface, ring, fills[0]);
   RimWedges rim;
   if (log != nullptr) {
@@ -162,7 +164,7 @@ std::uint32_t delete_vertex(Surface& surface, const Ring& ring, const std::uint8
   }
   surface.vertices[ring.vertex].first_corner = kNoCorner;
   if (log != nullptr) {
-    tell_left_wedges(surface, rim, *log);
+    tell_left_wedges(surface, texture_coordinates, rim, *log);
     log->end_step();
   }
   return dead_count;

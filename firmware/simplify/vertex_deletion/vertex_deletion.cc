@@ -193,7 +193,7 @@ void VertexDeletion::take_turn(DeletionEnergy& energy, std::uint32_t v) {
     remember(v, any, best);
     return;
   }
-  faces_ -= delete_vertex(surface_, ring, states_[v].fills, options_.log);
+  faces_ -= delete_vertex(surface_, working_.attributes.texture_coordinates, ring, states_[v].fills, options_.log);
   ++outcome_.work.collapses;
   if (states_[v].distance > outcome_.max_error) outcome_.max_error = states_[v].distance;
   states_[v].stage = kNever;

@@ -171,6 +171,8 @@ TEST(LayerChainOpen, StepsChangesSlotsAndPairsStayInTheirBounds) {
     const std::size_t pairs = sound.offset_of(view.pairs(0));
     expect_refused(sound, pairs, view.store_count(), pairs, "from");
     expect_refused(sound, pairs + 4, view.store_count(), pairs, "to");
+    expect_refused(sound, pairs + 4, view.store_count() | firmware::format::kPairPlaceOnly, pairs, "to");
+    EXPECT_TRUE(sound.with(pairs + 4, sound.get(pairs + 4) | firmware::format::kPairPlaceOnly).ok());
     expect_refused(sound, pairs + 8, sound.get(pairs), pairs + 8, "rising");
   }
 }

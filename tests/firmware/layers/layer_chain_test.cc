@@ -160,7 +160,7 @@ TEST_P(LayerChain, PairsLeadFromVerticesOfALayerToThoseOfTheNext) {
   for (std::uint32_t n = 0; n + 1 < chain_.view.layer_count(); ++n) {
     const auto here = vertices_of(n), next = vertices_of(n + 1);
     std::map<std::uint32_t, std::uint32_t> pairs;
-    for (const auto& pair : chain_.view.pairs(n)) pairs[pair.from] = pair.to;
+    for (const auto& pair : chain_.view.pairs(n)) pairs[pair.from] = pair.vertex();
     for (std::uint32_t v = 0; v < here.size(); ++v) {
       if (pairs.count(v) == 0) {
         if (here[v] && !next[v]) ADD_FAILURE() << "vertex " << v << " of layer " << n << " has no correspondent";
@@ -210,6 +210,24 @@ TEST(LayerChainBuilder, AQuotaOutOfReachEndsTheChainAtTheLastState) {
   ASSERT_TRUE(chain.status.ok());
   ASSERT_EQ(chain.view.layer_count(), 3u);
   EXPECT_EQ(chain.view.layer(2).faces, hand.state(hand.steps()).faces.size());
+}
+
+TEST(LayerChainBuilder, ALastLayerOfLessThanHalfItsWayTakesThePlaceOfTheOneBefore) {
+  const auto mesh = testing::icosphere(2);
+  const HandLog hand(mesh, HandLog::Kind::kHalfEdge, 150, 1);
+  // 160 faces, then 115 asked for.
+  const auto chain = build_chain(hand.input(std::array{1'000'000u, 800'000u, 500'000u, 360'000u}));
+  ASSERT_TRUE(chain.status.ok());
+  ASSERT_EQ(chain.view.layer_count(), 3u);
+  EXPECT_EQ(chain.view.layer(2).faces, 150u);
+  EXPECT_EQ(chain.view.layer(2).step, hand.steps());
+  EXPECT_EQ(chain.view.layer(2).quota_millionths, 500'000u);
+  // The mesh itself is never replaced: 320 faces, then 32 asked for, 300 reached.
+  const HandLog few(mesh, HandLog::Kind::kHalfEdge, 300, 1);
+  const auto two = build_chain(few.input(std::array{1'000'000u, 100'000u}));
+  ASSERT_TRUE(two.status.ok());
+  ASSERT_EQ(two.view.layer_count(), 2u);
+  EXPECT_EQ(two.view.layer(1).faces, 300u);
 }
 
 TEST(LayerChainBuilder, AMeshThatCannotBeThinnedHasOneLayer) {

@@ -46,8 +46,8 @@ float first_layer(const ScreenExtent& extent, const Attention& attention = {}, f
 TEST(LayerChoice, FacesOfALayerAreThatLayerAndThoseBetweenLieBetween) {
   for (std::uint32_t n = 0; n < 3; ++n)
     EXPECT_EQ(firmware::layer_of_faces(chain(), static_cast<float>(chain().layer(n).faces)), static_cast<float>(n));
-  const auto middle = static_cast<float>(chain().layer(1).faces + chain().layer(2).faces) / 2;
-  EXPECT_FLOAT_EQ(firmware::layer_of_faces(chain(), middle), 1.5f);
+  const double side_by_side = (std::sqrt(chain().layer(1).faces) + std::sqrt(chain().layer(2).faces)) / 2;
+  EXPECT_NEAR(firmware::layer_of_faces(chain(), static_cast<float>(side_by_side * side_by_side)), 1.5f, 1e-5f);
   EXPECT_EQ(firmware::layer_of_faces(chain(), 1e9f), 0);
   EXPECT_EQ(firmware::layer_of_faces(chain(), 0), 2);
 }
@@ -107,8 +107,9 @@ TEST(LayerChoice, WhatTremblesWithinTheHysteresisStands) {
   LayerMemory memory;
   const LayerChoiceSettings settings;
   const auto faces_of = [](float layer) {  // of layers between 0 and 1
-    const auto all = static_cast<float>(chain().layer(0).faces), less = static_cast<float>(chain().layer(1).faces);
-    return all + layer * (less - all);
+    const float all = std::sqrt(static_cast<float>(chain().layer(0).faces));
+    const float less = std::sqrt(static_cast<float>(chain().layer(1).faces));
+    return (all + layer * (less - all)) * (all + layer * (less - all));
   };
   choose_layer(chain(), worth(faces_of(0.5f)), view(), {}, settings, 2, memory);
   // The first swings take up the play; after them nothing moves any more.
@@ -131,9 +132,9 @@ TEST(LayerChoice, WhatTremblesWithinTheHysteresisStands) {
 
 TEST(LayerChoice, TheEndsAreReachedWhateverTheHysteresis) {
   LayerMemory memory;
-  for (int i = 0; i < 20; ++i) choose_layer(chain(), worth(10), view(), {}, {}, 2, memory);
+  for (int i = 0; i < 80; ++i) choose_layer(chain(), worth(10), view(), {}, {}, 2, memory);
   EXPECT_EQ(memory.layer, 2);
-  for (int i = 0; i < 20; ++i) choose_layer(chain(), worth(1000), view(), {}, {}, 2, memory);
+  for (int i = 0; i < 80; ++i) choose_layer(chain(), worth(1000), view(), {}, {}, 2, memory);
   EXPECT_EQ(memory.layer, 0);
 }
 
@@ -147,7 +148,7 @@ TEST(LayerChoice, NoFrameChangesMoreThanTheLargestChange) {
     EXPECT_LE(layer - before, LayerChoiceSettings{}.largest_change + 1e-6f);
     before = layer;
   }
-  EXPECT_EQ(frames, 16) << "two layers of eight frames";
+  EXPECT_EQ(frames, 64) << "two layers of 32 frames";
 }
 
 TEST(LayerChoice, ABoxIsMeasuredWhereItsCornersAre) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -120,15 +121,15 @@ TEST(MiddleLayer, HalfwayEveryVertexLiesHalfwayToItsCorrespondent) {
   std::vector<bool> moved(store.positions.size());
   for (const auto& pair : thinned.chain.view.pairs(1)) {
     moved[pair.from] = true;
-    const Vec3 a = store.positions[pair.from], b = store.positions[pair.to], m = thinned.positions[pair.from];
+    const Vec3 a = store.positions[pair.from], b = store.positions[pair.vertex()], m = thinned.positions[pair.from];
     EXPECT_FLOAT_EQ(m.x, (a.x + b.x) / 2);
     EXPECT_FLOAT_EQ(m.y, (a.y + b.y) / 2);
     EXPECT_FLOAT_EQ(m.z, (a.z + b.z) / 2);
-    const TexCoord s = store.texture_coordinates[pair.from], t = store.texture_coordinates[pair.to];
+    const TexCoord s = store.texture_coordinates[pair.from], t = store.texture_coordinates[pair.vertex()];
     EXPECT_FLOAT_EQ(thinned.texture_coordinates[pair.from].s, (s.s + t.s) / 2);
     EXPECT_FLOAT_EQ(thinned.texture_coordinates[pair.from].t, (s.t + t.t) / 2);
     EXPECT_NEAR(thinned.colours[pair.from].r(),
-                0.5 * (store.colours[pair.from].r() + store.colours[pair.to].r()), 0.51);
+                0.5 * (store.colours[pair.from].r() + store.colours[pair.vertex()].r()), 0.51);
     EXPECT_NEAR(length(unpack(thinned.normals[pair.from])), 1, 0.003);
   }
   for (std::uint32_t v = 0; v < moved.size(); ++v)
@@ -150,34 +151,103 @@ TEST(MiddleLayer, WeightsBeyondTheEndsAndNotANumberAreTheEnds) {
   EXPECT_EQ(thinned.positions, ends.positions);
 }
 
-TEST(MiddleLayer, OppositeNormalsStay) {
-  // Two faces over the edge 0-1; the first corner's normal points one way, its correspondent's the other.
+/// Two faces over the edge 0-1, of which the first goes: vertex 0 is followed by vertex 1.
+struct OnePair {
   testing::Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -1, 0}};
-  mesh.indices = {0, 1, 2, 1, 0, 3};
-  const PackedNormal up = pack_normal({1, 0, 0}), down = pack_normal({-1, 0, 0});
-  const std::vector<PackedNormal> normals{up, down, up, up};
-  std::vector<firmware::CollapseStep> steps(1);
-  std::vector<firmware::Succession> successions(1);
-  std::vector<std::uint32_t> removed(2), wedges(4);
-  firmware::CollapseLog log({steps, {}, successions, removed, {}, wedges}, 4, 2);
-  log.begin_step();
-  log.remove_face(0);
-  log.succeed(0, 1);
-  log.end_step();
-  constexpr std::uint32_t kTwo[] = {1'000'000, 500'000};
-  const auto chain = testing::build_chain({{4, 2, 1, kLayerNormals}, {}, kTwo, {}, {}, &log});
+  std::vector<Vec3> positions;
+  std::vector<PackedNormal> normals;
+  std::vector<Rgba8> colours{rgba8(0, 0, 0), rgba8(200, 200, 200), {}, {}};
+  std::vector<TexCoord> texture_coordinates{{0, 0}, {1, 1}, {0, 0}, {0, 0}};
+  testing::BuiltChain chain;
+
+  OnePair(Vec3 from, Vec3 to, bool whole = true) {
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -1, 0}};
+    mesh.indices = {0, 1, 2, 1, 0, 3};
+    mesh.normals = {pack_normal(from), pack_normal(to), {}, {}};
+    mesh.colours = colours;
+    mesh.texture_coordinates = texture_coordinates;
+    positions = mesh.positions;
+    normals = mesh.normals;
+    std::vector<firmware::CollapseStep> steps(1);
+    std::vector<firmware::Succession> successions(1);
+    std::vector<std::uint32_t> removed(2), wedges(4);
+    firmware::CollapseLog log({steps, {}, successions, removed, {}, wedges}, 4, 2);
+    log.begin_step();
+    log.remove_face(0);
+    log.follow(0, 1, whole);
+    log.end_step();
+    constexpr std::uint32_t kTwo[] = {1'000'000, 500'000};
+    chain = testing::build_chain(
+        {{4, 2, 1, kLayerNormals | kLayerColours | kLayerTextureCoordinates}, {}, kTwo, {}, {}, &log});
+    EXPECT_TRUE(chain.status.ok()) << chain.status.message;
+  }
+
+  /// The first vertex's normal on its way.
+  Vec3 normal_at(float weight) {
+    firmware::write_middle_layer(
+        chain.view, {mesh.positions, mesh.normals, mesh.colours, mesh.texture_coordinates}, 0, weight,
+        {positions, normals, colours, texture_coordinates});
+    return unpack(normals[0]);
+  }
+};
+
+double degrees_between(Vec3 a, Vec3 b) {
+  constexpr double kPi = 3.14159265358979;
+  return std::acos(std::clamp(double{dot(normalized(a), normalized(b))}, -1.0, 1.0)) * 180 / kPi;
+}
+
+TEST(MiddleLayer, NormalsTurnEvenlyHoweverFar) {
+  for (const double turn : {10.0, 45.0, 90.0, 150.0, 178.0}) {
+    const auto x = static_cast<float>(std::cos(turn * 3.14159265 / 180));
+    const auto y = static_cast<float>(std::sin(turn * 3.14159265 / 180));
+    OnePair pair({1, 0, 0}, {x, y, 0});
+    for (const float weight : {0.1f, 0.25f, 0.5f, 0.6f, 0.9f}) {
+      const Vec3 normal = pair.normal_at(weight);
+      EXPECT_NEAR(length(normal), 1, 0.003);
+      EXPECT_NEAR(degrees_between({1, 0, 0}, normal), turn * weight, 1) << turn << " degrees, weight " << weight;
+      EXPECT_NEAR(degrees_between(normal, {x, y, 0}), turn * (1 - weight), 1) << turn << " degrees, weight " << weight;
+    }
+  }
+}
+
+TEST(MiddleLayer, OppositeNormalsTurnToo) {
+  for (const Vec3 up : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, normalized({1, 1, 1})}) {
+    OnePair pair(up, up * -1);
+    EXPECT_EQ(pair.normal_at(0), unpack(pack_normal(up)));
+    for (const float weight : {0.25f, 0.5f, 0.75f})
+      EXPECT_NEAR(degrees_between(up, pair.normal_at(weight)), 180 * weight, 1.5);
+    EXPECT_EQ(pair.normal_at(1), unpack(pack_normal(up * -1)));
+  }
+}
+
+TEST(MiddleLayer, AVertexThatFollowsAPlaceAloneKeepsTheRest) {
+  OnePair pair({1, 0, 0}, {0, 1, 0}, false);
+  for (const float weight : {0.5f, 1.0f, 0.0f}) {
+    EXPECT_EQ(pair.normal_at(weight), (Vec3{1, 0, 0}));
+    EXPECT_EQ(pair.positions[0], (Vec3{weight, 0, 0}));
+    EXPECT_EQ(pair.colours[0], rgba8(0, 0, 0));
+    EXPECT_EQ(pair.texture_coordinates[0], (TexCoord{0, 0}));
+  }
+}
+
+TEST(MiddleLayer, WhoeverFollowsOneThatFollowsAPlaceAloneDoesSoToo) {
+  testing::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -1, 0}, {2, 0, 0}};
+  mesh.indices = {0, 1, 2, 1, 0, 3, 1, 4, 2};
+  std::vector<firmware::CollapseStep> steps(2);
+  std::vector<firmware::Succession> successions(2);
+  std::vector<std::uint32_t> removed(3), wedges(5);
+  firmware::CollapseLog log({steps, {}, successions, removed, {}, wedges}, 5, 3);
+  log.begin_step(), log.remove_face(0), log.succeed(0, 1), log.end_step();
+  log.begin_step(), log.remove_face(1), log.follow(1, 4, false), log.end_step();
+  constexpr std::uint32_t kTwo[] = {1'000'000, 333'400};
+  const auto chain = testing::build_chain({{5, 3, 1, 0}, {}, kTwo, {}, {}, &log});
   ASSERT_TRUE(chain.status.ok()) << chain.status.message;
-  std::vector<PackedNormal> out = normals;
-  firmware::StoreTarget target;
-  target.normals = out;
-  firmware::VertexStreams given;
-  given.positions = mesh.positions;
-  given.normals = normals;
-  firmware::write_middle_layer(chain.view, given, 0, 0.5f, target);
-  EXPECT_EQ(out[0], up);
-  firmware::write_middle_layer(chain.view, given, 0, 1, target);
-  EXPECT_EQ(out[0], down);
+  ASSERT_EQ(chain.view.pairs(0).size(), 2u);
+  for (const firmware::format::LayerPair& pair : chain.view.pairs(0)) {
+    EXPECT_EQ(pair.vertex(), 4u);
+    EXPECT_TRUE(pair.place_only()) << pair.from;
+  }
 }
 
 }  // namespace

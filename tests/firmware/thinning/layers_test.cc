@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <cmath>
 #include <vector>
 
 #include "firmware/layers/middle_layer.h"
@@ -115,6 +116,11 @@ TEST_P(LayersOfMethod, AnotherQuotaReplaysWhatLiesBetweenAndBuildsNothing) {
   EXPECT_EQ(bench.report.meshes_moved, 0u);
 }
 
+/// How far `faces` are on the way from a layer of `above` faces to one of `below`.
+float way(float above, float faces, float below) {
+  return (std::sqrt(above) - std::sqrt(faces)) / (std::sqrt(above) - std::sqrt(below));
+}
+
 TEST_P(LayersOfMethod, BetweenTwoLayersVerticesStandBetweenThem) {
   ThinningBench bench(container_rom({layered_hills(GetParam())}));
   ASSERT_TRUE(bench.update(with_faces(kAll, LayerMode::kQuota)).ok());
@@ -122,13 +128,14 @@ TEST_P(LayersOfMethod, BetweenTwoLayersVerticesStandBetweenThem) {
   const LayerChainView chain = bench.thinning.layers(0)->view();
   const std::uint32_t above = chain.layer(1).faces, below = chain.layer(2).faces;
   const std::uint32_t between = (above + 2 * below) / 3;
-  const float w = static_cast<float>(above - between) / static_cast<float>(above - below);
+  const float w =
+      way(static_cast<float>(above), static_cast<float>(between), static_cast<float>(below));
   ASSERT_TRUE(bench.update(with_faces(between, LayerMode::kQuota)).ok());
   EXPECT_FLOAT_EQ(bench.thinning.drawn_layer(0), 1 + w);
   EXPECT_EQ(bench.report.faces_out, above);
   auto expected = store;
   ASSERT_FALSE(chain.pairs(1).empty());
-  for (const auto& pair : chain.pairs(1)) expected[pair.from] = store[pair.from] * (1 - w) + store[pair.to] * w;
+  for (const auto& pair : chain.pairs(1)) expected[pair.from] = store[pair.from] * (1 - w) + store[pair.vertex()] * w;
   const auto drawn = bench.positions(0);
   for (std::size_t v = 0; v < drawn.size(); ++v)
     EXPECT_LT(dot(drawn[v] - expected[v], drawn[v] - expected[v]), 1e-12f) << v;
@@ -167,7 +174,7 @@ TEST(Layers, PartsOfAFaceMoveAMeshBetweenItsLayersToo) {
     for (const std::uint32_t n : {0u, 1u}) {
       const LayerChainView chain = bench.thinning.layers(n)->view();
       const auto above = static_cast<float>(chain.layer(1).faces), below = static_cast<float>(chain.layer(2).faces);
-      EXPECT_FLOAT_EQ(bench.thinning.drawn_layer(n), 1 + (above - faces) / (above - below)) << faces;
+      EXPECT_FLOAT_EQ(bench.thinning.drawn_layer(n), 1 + way(above, faces, below)) << faces;
     }
   };
   expect_faces({QuotaKind::kMillionths, 500'000}, 400);
@@ -212,11 +219,11 @@ TEST(Layers, TheAutomaticLayerFollowsSizeDownToTheQuota) {
   // 100 pixels wide: a diagonal of 141 pixels is worth 20,000 / 16 faces, more than there are.
   ASSERT_TRUE(bench.update(settings, scaled_view(1)).ok());
   EXPECT_EQ(bench.thinning.drawn_layer(0), 0);
-  // A fourteenth of that is worth less than the last layer: nobody gave a quota, so that is the end; an eighth of a
-  // layer a frame.
+  // A fourteenth of that is worth less than the last layer: nobody gave a quota, so that is the end; a 32nd of a layer
+  // a frame.
   ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
-  EXPECT_EQ(bench.thinning.drawn_layer(0), 0.125f);
-  for (int i = 0; i < 30; ++i) ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 1.0f / 32);
+  for (int i = 0; i < 96; ++i) ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
   EXPECT_EQ(bench.thinning.drawn_layer(0), 3);
   EXPECT_EQ(bench.report.faces_out, bench.thinning.layers(0)->view().layer(3).faces);
   // With a quota of 60 % that is the coarsest.
@@ -235,7 +242,7 @@ TEST(Layers, AMeshDrawnWholeSetsOutFromItsFirstLayer) {
   ASSERT_TRUE(bench.update(settings, scaled_view(1)).ok());
   EXPECT_FALSE(bench.copy().mesh(0).layered);
   ASSERT_TRUE(bench.update(settings, scaled_view(0.05f)).ok());
-  EXPECT_EQ(bench.thinning.drawn_layer(0), 0.125f);
+  EXPECT_EQ(bench.thinning.drawn_layer(0), 1.0f / 32);
 }
 
 TEST(Layers, VerticesStayInRomWhereTheMethodMakesNoneAndNoneMoves) {
