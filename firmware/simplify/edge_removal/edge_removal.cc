@@ -4,9 +4,12 @@
 // S4, S5: the edge goes and its vertex is placed (placement.h, p. 19-22). S6: the texture follows (wedge_images.h,
 // p. 23-27), and its boundaries hold (image_border.h, p. 27-30).
 //
-// Where we depart from the source: a removal that would break the surface's topology or turn a face is refused
-// (collapse_rules.h); and after a removal the edges at its vertex are valued anew at once, other edges at its
-// neighbours, where a plane in five or so has changed, when they come to the front. They mostly have grown dearer.
+// Where we depart from the source: on a boundary eq. (2) is added to eq. (1), where the source orders by eq. (1) alone
+// and takes eq. (2) for a bound; neighbours' values (p. 18) come in as their mean times a weight, not as a sum, so that
+// an edge of many neighbours is no dearer for their number; a removal that would break the surface's topology or turn
+// a face is refused (collapse_rules.h); and after a removal the edges at its vertex are valued anew at once, other
+// edges at its neighbours, where a plane in five or so has changed, when they come to the front. They mostly have grown
+// dearer.
 #include "firmware/simplify/edge_removal/edge_removal.h"
 
 #include "firmware/simplify/attributes.h"

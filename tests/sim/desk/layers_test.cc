@@ -1,15 +1,13 @@
 // Meshes with layers as the panel shows them: the same picture as without, and none that jumps.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include "sim/desk/desk.h"
 #include "tests/support/desk_request.h"
 #include "tests/support/mesh_shapes.h"
+#include "tests/support/quota_sweep.h"
 #include "tests/support/test_layers.h"
 #include "tests/support/test_meshes.h"
 
@@ -18,12 +16,10 @@ namespace {
 
 using firmware::LayerMode;
 using sim::Desk;
-using sim::Image;
 using testing::RomImage;
 using testing::TestMesh;
 using Method = firmware::format::Method;
 
-constexpr std::uint32_t kMillion = 1'000'000;
 /// Steps of 60 % down to where the sweep ends.
 constexpr std::uint32_t kQuotas[] = {1'000'000, 600'000, 360'000, 216'000, 129'600, 77'760, 50'000};
 
@@ -57,23 +53,6 @@ firmware::FrameRequest request_with(const Desk& desk, std::uint32_t millionths, 
   return request;
 }
 
-/// Largest change of a block of 8 x 8 pixels: the mean difference of its channels, 0..255.
-double block_change(const Image& a, const Image& b) {
-  constexpr std::uint32_t kSide = 8;
-  double largest = 0;
-  for (std::uint32_t y = 0; y + kSide <= a.height; y += kSide)
-    for (std::uint32_t x = 0; x + kSide <= a.width; x += kSide) {
-      int sum = 0;
-      for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-        const std::uint32_t p = a.at(x + i % kSide, y + i / kSide), q = b.at(x + i % kSide, y + i / kSide);
-        for (const int shift : {0, 8, 16})
-          sum += std::abs(static_cast<int>(p >> shift & 0xFF) - static_cast<int>(q >> shift & 0xFF));
-      }
-      largest = std::max(largest, sum / (3.0 * kSide * kSide));
-    }
-  return largest;
-}
-
 class LayersOnThePanel : public ::testing::TestWithParam<Method> {};
 /// Vertex deletion for layers fills by fans alone.
 class LayersAsWithout : public ::testing::TestWithParam<Method> {};
@@ -96,29 +75,10 @@ TEST_P(LayersAsWithout, ALayerIsThePictureOfTheMethodItself) {
 TEST_P(LayersOnThePanel, NothingJumpsWhileAQuotaSweeps) {
   const RomImage rom = testing::container_rom({dented_ball(GetParam())});
   Desk middle(config(), rom.bytes(), "middle"), switched(config(), rom.bytes(), "switched");
-  constexpr int kFrames = 300;
-  double with_middle = 0, with_switching = 0;
-  Image before_middle, before_switched;
-  for (int i = 0; i < kFrames; ++i) {
-    const double share = 1 - 0.95 * i / (kFrames - 1);
-    const auto quota = static_cast<std::uint32_t>(std::lround(share * kMillion));
-    // The coarsest layer that has as many faces as the quota.
-    std::uint32_t layer = kMillion;
-    for (const std::uint32_t q : kQuotas)
-      if (q >= quota) layer = q;
-    const auto a = middle.draw(request_with(middle, quota, LayerMode::kQuota));
-    const auto b = switched.draw(request_with(switched, layer, LayerMode::kFaces));
-    if (i > 0) {
-      with_middle = std::max(with_middle, block_change(before_middle, a.picture));
-      with_switching = std::max(with_switching, block_change(before_switched, b.picture));
-    }
-    before_middle = a.picture;
-    before_switched = b.picture;
-  }
-  RecordProperty("middle", std::to_string(with_middle));
-  RecordProperty("switched", std::to_string(with_switching));
-  EXPECT_GT(with_switching, 10) << "layers differ";
-  EXPECT_LE(with_middle, with_switching / 4);
+  const testing::SweepChange change =
+      testing::sweep_quota(middle, switched, testing::request_for(middle), {.layers_millionths = kQuotas});
+  EXPECT_GT(change.switched, 10) << "layers differ";
+  EXPECT_LE(change.middle, change.switched / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LayersAsWithout,
