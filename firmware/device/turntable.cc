@@ -1,6 +1,6 @@
 #include "firmware/device/turntable.h"
 
-#include "firmware/scene/trigonometry.h"
+#include "hal/trigonometry.h"
 
 namespace usuzumi::firmware {
 namespace {

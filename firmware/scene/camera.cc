@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/scene/trigonometry.h"
+#include "hal/trigonometry.h"
 
 namespace usuzumi::firmware {
 namespace {

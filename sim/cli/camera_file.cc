@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "firmware/scene/trigonometry.h"
+#include "hal/trigonometry.h"
 #include "sim/common/error.h"
 #include "sim/common/strict_json.h"
 
@@ -30,7 +30,7 @@ class FrameReader {
     camera.target = vector("target", nullptr);
     camera.up = vector("up", &camera.up);
     const double degrees = number("fov_y_deg", 40);
-    camera.fov_y_rad = static_cast<float>(degrees * firmware::kPi / 180);
+    camera.fov_y_rad = static_cast<float>(degrees * kPi / 180);
     const float radius = std::max(bounds.radius(), 1e-6f);
     const float distance = length(camera.eye - bounds.centre());
     camera.near_distance =

@@ -1,8 +1,8 @@
-#include "firmware/scene/trigonometry.h"
+#include "hal/trigonometry.h"
 
 #include <cstdint>
 
-namespace usuzumi::firmware {
+namespace usuzumi {
 namespace {
 
 /// Taylor series on [-pi/4, pi/4]. The first term left out is below (pi/4)^15 / 15! = 2e-14 and (pi/4)^16 / 16! =
@@ -40,4 +40,4 @@ SinCos sin_cos(double angle_rad) {
   }
 }
 
-}  // namespace usuzumi::firmware
+}  // namespace usuzumi
