@@ -28,6 +28,8 @@ Status Device::boot(const DeviceConfig& config) {
   command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_));
   if (command_words_.empty())
     return {StatusCode::kResourceExhausted, "RAM has no room for the command list; meshes", data_.mesh_max()};
+  status = solids_.begin(data_.solids(), ram_);
+  if (!status.ok()) return status;
   status = thinning_.begin(data_, ram_, rom_on_bus(), config.boot_layers_millionths);
   if (status.ok()) status = engine_.probe();
   booted_ = status.ok();
@@ -84,16 +86,17 @@ Status Device::draw_picture(const FrameRequest& request, FrameReport& report) {
   Status status = thinning_.update(request.thinning, view, ports_.clock, report.thinning);
   const std::uint64_t thinned = ports_.clock.now_ns();
   report.thin_ns = thinned - begin;
-  if (status.ok()) status = draw_list(view, request.lighting, report);
+  if (status.ok()) status = draw_list(view, request, report);
   report.draw_ns = ports_.clock.now_ns() - thinned;
   return status;
 }
 
-Status Device::draw_list(const View& view, const Lighting& lighting, FrameReport& report) {
+Status Device::draw_list(const View& view, const FrameRequest& request, FrameReport& report) {
   const Scanout& scanout = vram_.scanout;
   const FrameTarget target{scanout.picture[back_], scanout.stride_bytes,     scanout.format,
                            vram_.depth,            vram_.depth_stride_bytes, vram_.depth_format};
-  const auto list = write_scene(thinning_, view, lighting, target, ports_.bus, command_words_);
+  const SolidsToDraw solids{solids_, request.solids, report.solids};
+  const auto list = write_scene(thinning_, view, request.lighting, target, ports_.bus, command_words_, &solids);
   if (!list.ok()) return list.status();
   ports_.clock.charge(CpuWork::kCommandWritten, list->size());
   Status status = engine_.start(ports_.bus.bus_address(list->data()), static_cast<std::uint32_t>(list->size()));

@@ -9,6 +9,7 @@
 #include "firmware/device/scene_commands.h"
 #include "firmware/device/vram_layout.h"
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/solids/solid_members.h"
 #include "firmware/thinning/thinning.h"
 #include "hal/arena.h"
 #include "hal/bus.h"
@@ -49,10 +50,12 @@ struct FrameRequest {
   Mat4 model_to_clip;
   Lighting lighting;
   ThinningSettings thinning;
+  SolidSettings solids;
 };
 
 struct FrameReport {
   ThinningReport thinning;
+  SolidsReport solids;
   std::uint64_t engine_cycles = 0;
   std::uint32_t faces_drawn = 0;        // left after clipping away, culling and zero area
   std::uint64_t thin_ns = 0;            // deciding and thinning, by the device's clock
@@ -89,6 +92,7 @@ class Device {
   /// After boot().
   const DrawingData& drawing_data() const { return data_; }
   const Thinning& thinning() const { return thinning_; }
+  const SolidMembers& solids() const { return solids_; }
   const VramLayout& vram() const { return vram_; }
   /// The picture shown last: 0 or 1.
   std::uint32_t shown_picture() const { return back_ ^ 1; }
@@ -104,7 +108,7 @@ class Device {
   std::span<std::byte> back_pixels();
   /// Shows what the CPU has painted.
   Status show_painted(const PictureRectangle& part);
-  Status draw_list(const View& view, const Lighting& lighting, FrameReport& report);
+  Status draw_list(const View& view, const FrameRequest& request, FrameReport& report);
 
   DevicePorts ports_;
   DeviceConfig config_;
@@ -112,6 +116,7 @@ class Device {
   Arena ram_;
   DrawingData data_;
   Thinning thinning_;
+  SolidMembers solids_;
   VramLayout vram_;
   std::span<std::uint32_t> command_words_;
   std::uint32_t back_ = 0;  // the picture that is drawn next

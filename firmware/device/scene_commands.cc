@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "firmware/solids/solid_placement.h"
+
 namespace usuzumi::firmware {
 namespace {
 
@@ -51,6 +53,8 @@ class SceneWriter {
 
   /// Those parts of the present meshes that are blended, or all others.
   Status put_meshes(bool blended);
+  /// Every solid in sight, by the member that its size asks for.
+  Status put_solids(const SolidsToDraw& solids, const View& view);
   /// Whether put_meshes() has come across anything that is blended.
   bool any_blended() const { return any_blended_; }
 
@@ -60,6 +64,8 @@ class SceneWriter {
   Status put_group(const MeshView& mesh, const format::FaceGroup& group, bool blended, std::uint32_t first,
                    std::uint32_t count);
   Status put_texture(const MeshView& mesh, const MaterialView& material);
+  void put_plain();
+  Status put_solid(const SolidMembers& members, std::uint32_t n, Member member, const DrawnMember& drawn);
   Status add_streams_of(const MeshView& mesh, BusAddress block, command::SetVertexStreams& streams) const;
 
   const Thinning& thinning_;
@@ -162,6 +168,61 @@ Status SceneWriter::put_texture(const MeshView& mesh, const MaterialView& materi
   return ok_status();
 }
 
+/// No texture, no blending.
+void SceneWriter::put_plain() {
+  if (!same(command::SetTexture{}, texture_)) list_.put(command::SetTexture{});
+  if (!same(command::SetFragmentState{}, fragment_)) list_.put(command::SetFragmentState{});
+  texture_ = {};
+  fragment_ = {};
+}
+
+Status SceneWriter::put_solids(const SolidsToDraw& solids, const View& view) {
+  SolidMembers& members = solids.members;
+  if (members.count() == 0) return ok_status();
+  put_plain();
+  const Thresholds thresholds = thresholds_fall(solids.settings.thresholds) ? solids.settings.thresholds : Thresholds{};
+  const Eye eye = eye_of(view.model_to_clip);
+  for (std::uint32_t n = 0; n < members.count(); ++n) {
+    const format::Solid& solid = members.solid(n);
+    const SolidView seen = look_at(solid, view, solids.settings.clip_margin);
+    if (seen.clipped) {
+      ++solids.report.clipped;
+      continue;
+    }
+    const Member member = seen.at_the_eye ? Member::kHigh : member_of(seen.size_px, thresholds);
+    const DrawnMember drawn = members.choose(n, member, eye.from(SolidPlacement::of(solid).origin));
+    const Status status = put_solid(members, n, member, drawn);
+    if (!status.ok()) return status;
+    ++solids.report.drawn[static_cast<std::uint32_t>(member)];
+    solids.report.faces += drawn.faces;
+  }
+  return ok_status();
+}
+
+Status SceneWriter::put_solid(const SolidMembers& members, std::uint32_t n, Member member, const DrawnMember& drawn) {
+  if (drawn.index_count == 0) return ok_status();
+  const BusAddress positions = bus_.bus_address(members.positions().data());
+  const BusAddress normals = bus_.bus_address(members.normals().data());
+  const BusAddress indices = bus_.bus_address(members.indices().data());
+  if (positions == 0 || normals == 0 || indices == 0)
+    return {StatusCode::kFailedPrecondition, "members of solids lie outside the bus; solid number", n};
+  command::SetRasterState raster;
+  raster.cull = member == Member::kRough ? command::CullMode::kNone : command::CullMode::kBack;
+  raster.depth_test = depth_ ? 1 : 0;
+  raster.point_size = raster.line_width = kMarkSize;
+  list_.put(raster);
+  command::SetVertexStreams streams;
+  streams.vertex_count = drawn.vertex_count;
+  streams.positions = positions + drawn.first_vertex * static_cast<std::uint32_t>(sizeof(Vec3));
+  streams.normals = normals + drawn.first_vertex * static_cast<std::uint32_t>(sizeof(PackedNormal));
+  streams.constant_colour = {members.solid(n).colour};
+  list_.put(streams);
+  command::Draw draw{command::Topology::kTriangles, command::IndexFormat::kU16, indices, drawn.first_index,
+                     drawn.index_count};
+  list_.put(draw);
+  return ok_status();
+}
+
 /// The streams in ROM where the copy leaves them there, and those in the copy's block.
 Status SceneWriter::add_streams_of(const MeshView& mesh, BusAddress block, command::SetVertexStreams& streams) const {
   const CopyMesh& copy = copy_.mesh(mesh.number);
@@ -197,17 +258,22 @@ std::uint32_t scene_command_words(const DrawingData& data) {
   });
   // A state that differs from the default is set at most once by each draw that has it, and taken back at most once
   // after it.
-  return kFrameWords + draws * kDrawWords + 2 * textured * words_of<command::SetTexture> +
+  const auto solids = static_cast<std::uint32_t>(data.solids().solids.size());
+  draws += solids;
+  const std::uint32_t plain =
+      solids > 0 ? words_of<command::SetTexture> + words_of<command::SetFragmentState> : 0;
+  return kFrameWords + plain + draws * kDrawWords + 2 * textured * words_of<command::SetTexture> +
          2 * alpha * words_of<command::SetFragmentState>;
 }
 
 Result<std::span<const std::uint32_t>> write_scene(const Thinning& thinning, const View& view, const Lighting& lighting,
                                                    const FrameTarget& target, const AddressTranslation& bus,
-                                                   std::span<std::uint32_t> words) {
+                                                   std::span<std::uint32_t> words, const SolidsToDraw* solids) {
   command::Writer list(words);
   put_frame_state(list, view, lighting, target);
   SceneWriter scene(thinning, bus, target.depth_format != command::DepthFormat::kNone, list);
   Status status = scene.put_meshes(false);
+  if (status.ok() && solids != nullptr) status = scene.put_solids(*solids, view);
   if (status.ok() && scene.any_blended()) status = scene.put_meshes(true);
   if (!status.ok()) return status;
   return list.finish();

@@ -5,6 +5,8 @@
 #include <span>
 
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/solids/solid_choice.h"
+#include "firmware/solids/solid_members.h"
 #include "firmware/thinning/screen_area.h"
 #include "firmware/thinning/thinning.h"
 #include "hal/bus.h"
@@ -21,6 +23,24 @@ struct Lighting {
   Rgba8 background = rgba8(0, 0, 0);
 };
 
+/// Which members solids are drawn with.
+struct SolidSettings {
+  Thresholds thresholds;   // that fall; where they do not, all are drawn whole
+  float clip_margin = 0;   // SolidView: solids so far outside the picture are taken to be in sight
+};
+
+struct SolidsReport {
+  std::uint32_t drawn[kMemberCount] = {};  // by member
+  std::uint32_t clipped = 0;
+  std::uint32_t faces = 0;  // told to the engine, as the paper counts: a quad is one
+};
+
+struct SolidsToDraw {
+  SolidMembers& members;
+  const SolidSettings& settings;
+  SolidsReport& report;
+};
+
 struct FrameTarget {
   BusAddress picture = 0;
   std::uint32_t picture_stride_bytes = 0;
@@ -30,16 +50,17 @@ struct FrameTarget {
   command::DepthFormat depth_format = command::DepthFormat::kUnorm24;
 };
 
-/// Words that a list of all of the data's meshes needs at most.
+/// Words that a list of all of the data's meshes and solids needs at most.
 std::uint32_t scene_command_words(const DrawingData& data);
 
-/// The list that draws the copy, in `words`: meshes in their order, those parts that are laid over others
-/// (format::AlphaMode::kBlend) after all the rest, in the same order, and without writing depth, so that none of them
-/// hides another. Textures, and vertices that the copy leaves there, are read from ROM.
-/// kResourceExhausted when it does not fit; kFailedPrecondition, with the mesh's number, when the copy, a texture or
-/// vertices lie where the bus does not reach.
+/// The list that draws the copy, in `words`: meshes in their order, then `solids` (null: none), then those parts of
+/// meshes that are laid over others (format::AlphaMode::kBlend), in the same order, and without writing depth, so that
+/// none of them hides another. Textures, and vertices that the copy leaves there, are read from ROM.
+/// kResourceExhausted when it does not fit; kFailedPrecondition, with the mesh's or solid's number, when the copy, a
+/// texture, vertices or members lie where the bus does not reach.
 Result<std::span<const std::uint32_t>> write_scene(const Thinning& thinning, const View& view, const Lighting& lighting,
                                                    const FrameTarget& target, const AddressTranslation& bus,
-                                                   std::span<std::uint32_t> words);
+                                                   std::span<std::uint32_t> words,
+                                                   const SolidsToDraw* solids = nullptr);
 
 }  // namespace usuzumi::firmware

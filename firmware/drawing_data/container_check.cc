@@ -5,6 +5,7 @@
 
 #include "firmware/drawing_data/appearance_check.h"
 #include "firmware/drawing_data/drawing_data.h"
+#include "firmware/drawing_data/solids_check.h"
 #include "firmware/layers/layer_format.h"
 #include "hal/crc32.h"
 
@@ -53,6 +54,7 @@ Range* range_of(Sections& sections, format::SectionType type) {
     case format::SectionType::kEdgeValues: return &sections.edge_values;
     case format::SectionType::kLayers: return &sections.layers;
     case format::SectionType::kGroups: return &sections.groups;
+    case format::SectionType::kSolids: return &sections.solids;
   }
   return nullptr;
 }
@@ -171,10 +173,10 @@ Status check_meshes(const Words& words, const Sections& sections) {
 
 }  // namespace
 
-Status check_records(const Words& words, std::uint32_t begin, std::uint32_t end) {
+Status check_records(const Words& words, std::uint32_t begin, std::uint32_t end, bool may_be_none) {
   if (end - begin < 4) return damaged("no room for mesh-max at byte offset", begin);
   const std::uint32_t mesh_max = words.at(begin);
-  if (mesh_max == 0) return damaged("mesh-max is 0: there is nothing to draw, at byte offset", begin);
+  if (mesh_max == 0 && !may_be_none) return damaged("mesh-max is 0: there is nothing to draw, at byte offset", begin);
   if (mesh_max > format::kMaxMeshes)
     return damaged("mesh-max is above 65535 (or this is no drawing data), at byte offset", begin);
   std::uint32_t offset = begin + 4;
@@ -193,10 +195,12 @@ Status check_container(std::span<const std::byte> rom, Sections& sections) {
   if (crc32(kCrc32Start, rom.subspan(kCrcStart)) != words.object<format::Header>(0).crc32)
     return damaged("CRC-32 does not match: the file is corrupt, checksum at byte offset", 20);
   status = read_sections(words, static_cast<std::uint32_t>(rom.size()), sections);
-  if (status.ok()) status = check_records(words, sections.records.begin, sections.records.end);
+  if (status.ok())
+    status = check_records(words, sections.records.begin, sections.records.end, sections.solids.bytes() > 0);
   if (status.ok()) status = check_textures(words, sections);
   if (status.ok()) status = check_materials(words, sections);
   if (status.ok()) status = check_meshes(words, sections);
+  if (status.ok()) status = check_solids(words, sections);
   return status;
 }
 

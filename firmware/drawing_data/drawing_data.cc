@@ -4,6 +4,7 @@
 
 #include "firmware/drawing_data/container_check.h"
 #include "firmware/drawing_data/mesh_layers.h"
+#include "firmware/drawing_data/solids_check.h"
 
 namespace usuzumi::firmware {
 namespace {
@@ -65,6 +66,7 @@ Result<DrawingData> DrawingData::open(std::span<const std::byte> rom) {
   data.layers_end_ = sections.layers.end;
   data.textures_offset_ = sections.textures.begin;
   data.texture_count_ = sections.textures.bytes() / static_cast<std::uint32_t>(sizeof(format::Texture));
+  data.solids_ = solids_of(words, sections);
   const Status layers = data.check_layers();
   if (!layers.ok()) return layers;
   return data;

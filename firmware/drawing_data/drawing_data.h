@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "firmware/drawing_data/mesh_view.h"
+#include "firmware/solids/solids_view.h"
 #include "hal/status.h"
 
 namespace usuzumi::firmware {
@@ -19,6 +20,7 @@ class DrawingData {
   static Result<DrawingData> open(std::span<const std::byte> rom);
 
   bool bare() const { return bare_; }
+  /// 0 only where there are solids.
   std::uint32_t mesh_max() const { return mesh_max_; }
   /// n < mesh_max(). Constant time in a container, linear in n in bare data.
   MeshView mesh(std::uint32_t n) const;
@@ -37,6 +39,9 @@ class DrawingData {
   TextureView texture(std::uint32_t n) const;    // n < texture_count()
   std::uint32_t material_count() const { return material_count_; }
   MaterialView material(std::uint32_t n) const;  // n < material_count(), or kAbsent: the default
+  /// Empty where there are none, as in bare data.
+  const SolidsView& solids() const { return solids_; }
+  std::string_view name_of(const format::Solid& solid) const { return text(solid.name_offset, solid.name_bytes); }
   std::span<const std::byte> bytes() const { return rom_; }
   /// The board it was packed for; empty where it is for any, as bare data always are.
   std::string_view board() const { return board_; }
@@ -54,6 +59,7 @@ class DrawingData {
   std::uint32_t layers_end_ = 0;  // of section LAYR
   std::uint32_t materials_offset_ = 0, material_count_ = 0;
   std::uint32_t textures_offset_ = 0, texture_count_ = 0;
+  SolidsView solids_;
 };
 
 }  // namespace usuzumi::firmware

@@ -49,7 +49,7 @@ enum class SectionType : std::uint32_t {  // four letters, first in the low byte
   kEdgeValues = 0x56474445,               // "EDGV": f32 per vertex
   kLayers = 0x5259414C,                   // "LAYR": chains of layers
   kGroups = 0x50555247,                   // "GRUP": materials of meshes that have several
-  // Kept for later versions: "SOLD" solids.
+  kSolids = 0x444C4F53,                   // "SOLD": solids (firmware/solids/solid_format.h)
 };
 
 struct Section {                   // 16 bytes each, from offset 32

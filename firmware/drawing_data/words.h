@@ -64,7 +64,7 @@ struct Range {
 /// The container's section table, resolved.
 struct Sections {
   Range records, meshes, indices, normals, colours, names, board;
-  Range texture_coordinates, materials, textures, texels, methods, edge_values, layers, groups;
+  Range texture_coordinates, materials, textures, texels, methods, edge_values, layers, groups, solids;
 };
 
 }  // namespace usuzumi::firmware

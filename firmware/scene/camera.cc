@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware/solids/solid_placement.h"
 #include "hal/trigonometry.h"
 
 namespace usuzumi::firmware {
@@ -101,14 +102,17 @@ Mat4 model_to_clip(const Camera& camera, float aspect) {
 Bounds bounds_of(const DrawingData& data) {
   Bounds b;
   bool first = true;
+  const auto add = [&](Vec3 p) {
+    if (first) b = {p, p};
+    first = false;
+    b.low = {p.x < b.low.x ? p.x : b.low.x, p.y < b.low.y ? p.y : b.low.y, p.z < b.low.z ? p.z : b.low.z};
+    b.high = {p.x > b.high.x ? p.x : b.high.x, p.y > b.high.y ? p.y : b.high.y, p.z > b.high.z ? p.z : b.high.z};
+  };
   data.for_each_mesh([&](const MeshView& mesh) {
-    for (const Vec3& p : mesh.positions) {
-      if (first) b = {p, p};
-      first = false;
-      b.low = {p.x < b.low.x ? p.x : b.low.x, p.y < b.low.y ? p.y : b.low.y, p.z < b.low.z ? p.z : b.low.z};
-      b.high = {p.x > b.high.x ? p.x : b.high.x, p.y > b.high.y ? p.y : b.high.y, p.z > b.high.z ? p.z : b.high.z};
-    }
+    for (const Vec3 p : mesh.positions) add(p);
   });
+  for (const format::Solid& solid : data.solids().solids)
+    for (const Vec3 corner : corners_of(solid).of) add(corner);
   return b;
 }
 

@@ -24,7 +24,7 @@ Status check(const Camera& camera);
 /// Model space to OpenGL clip space (hal/command_list.h). `aspect`: width / height. Only for a checked camera.
 Mat4 model_to_clip(const Camera& camera, float aspect);
 
-/// Axis-aligned box around every vertex of the drawing data.
+/// Axis-aligned box around every vertex of the drawing data, and around the boxes of its solids.
 struct Bounds {
   Vec3 low, high;
   Vec3 centre() const { return (low + high) * 0.5f; }

@@ -1,0 +1,29 @@
+#include "firmware/solids/solid_placement.h"
+
+#include "firmware/solids/solid_shape.h"
+
+namespace usuzumi::firmware {
+
+SolidPlacement SolidPlacement::of(const format::Solid& solid) {
+  const float* m = solid.to_model;
+  return {{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}, {m[3], m[7], m[11]}};
+}
+
+Vec3 SolidPlacement::normal(Vec3 own) const {
+  // The transposed inverse but for the determinant's size: normals do not stretch as places do.
+  const Vec3 n = cross(column[1], column[2]) * own.x + cross(column[2], column[0]) * own.y +
+                 cross(column[0], column[1]) * own.z;
+  return normalized(determinant() < 0 ? n * -1 : n);
+}
+
+SolidCorners corners_of(const format::Solid& solid) {
+  const SolidPlacement placement = SolidPlacement::of(solid);
+  const Vec3 half = half_extent(solid.kind, solid.size);
+  SolidCorners corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners.of[i] = placement.point({(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                                     (i & 4) != 0 ? half.z : -half.z});
+  return corners;
+}
+
+}  // namespace usuzumi::firmware
