@@ -21,9 +21,9 @@ TIMEOUT_S = 120     # of one program; the longest takes a few seconds
 
 # Budgets: about 15 % above what was measured with Debian 12's gcc 12.2.1 (README.md has the numbers), of code 5 %.
 # Exceeding one fails: find out why, and raise it only where the reason is worth its price.
-MAX_CODE_BYTES = 300_000           # code, constants and .data, of the 4 MiB: the engine 103 KB, 85 of them its kernels with
+MAX_CODE_BYTES = 321_000           # code, constants and .data, of the 4 MiB: the engine 103 KB, 85 of them its kernels with
                                    # textures; four methods of thinning, with textures and seams, 92 KB; layers 17 KB;
-                                   # the rest of the firmware 40 KB
+                                   # solids 18 KB; the rest of the firmware 40 KB
 MAX_STACK_BYTES = 15_500           # of 32 KiB
 MAX_GOLDEN_STACK_BYTES = 20_400    # of the player of the goldens, whose lists are harder
 MAX_FIRMWARE_RAM_BYTES = 320_000   # of 320 KiB; coordinates and seams of a textured truck take 79 KB

@@ -30,6 +30,25 @@ std::vector<std::uint32_t> layers_option(const std::string& option, const std::s
   return *tags.layers;
 }
 
+firmware::Thresholds thresholds_option(const std::string& option, const std::string& value) {
+  const auto refuse = [&]() -> void {
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: must be three sizes in pixels that do not rise, like 32,24,16", option, value));
+  };
+  float sizes[3] = {};
+  const char* at = value.data();
+  const char* const end = at + value.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) refuse();
+    const auto [next, error] = std::from_chars(at, end, sizes[i], std::chars_format::fixed);
+    if (error != std::errc{}) refuse();
+    at = next;
+  }
+  const firmware::Thresholds thresholds{sizes[0], sizes[1], sizes[2]};
+  if (at != end || !firmware::thresholds_fall(thresholds)) refuse();
+  return thresholds;
+}
+
 firmware::Placement placement_option(const std::string& value) {
   return value == "midpoint" ? firmware::Placement::kMidpoint : firmware::Placement::kOptimal;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/simplify/simplify.h"
+#include "firmware/solids/solid_choice.h"
 #include "sim/pack/model.h"
 
 namespace CLI {
@@ -21,6 +22,9 @@ FaceQuota quota_option(const std::string& option, const std::string& value);
 
 /// "100,60,36", per cent of a mesh's faces, as millionths. Throws Error kUsage.
 std::vector<std::uint32_t> layers_option(const std::string& option, const std::string& value);
+
+/// "32,24,16", pixels that do not rise. Throws Error kUsage.
+firmware::Thresholds thresholds_option(const std::string& option, const std::string& value);
 
 /// "optimal" or "midpoint"; the parser has checked it.
 firmware::Placement placement_option(const std::string& value);

@@ -34,7 +34,9 @@
 #include "sim/pack/names.h"
 #include "sim/pack/prepare_textures.h"
 #include "sim/pack/rom_writer.h"
+#include "sim/pack/scene_file.h"
 #include "sim/pack/tag_values.h"
+#include "sim/pack/textured.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -125,8 +127,10 @@ void print_summary(const PackOptions& options, const firmware::DrawingData& data
     faces += mesh.proper_face_count();
   });
   const LayerTotals layers = layer_totals(data);
-  fmt::print("{}: {}, {} meshes, {} vertices, {} faces, {} bytes{}\n", options.output,
-             options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces, data.bytes().size(),
+  const std::size_t solids = data.solids().solids.size();
+  fmt::print("{}: {}, {} meshes, {} vertices, {} faces{}, {} bytes{}\n", options.output,
+             options.bare ? "bare drawing data" : "container", data.mesh_max(), vertices, faces,
+             solids == 0 ? "" : fmt::format(", {} solids", solids), data.bytes().size(),
              layers.meshes == 0 ? "" : fmt::format(", {} of them layers of {} meshes", layers.bytes, layers.meshes));
 }
 
@@ -145,6 +149,29 @@ void prepare(Model& model, const PackOptions& options) {
   make_layer_chains(model);
 }
 
+/// Model files, and scene files with the models that they name, which are added to `read`.
+Model load_inputs(const std::vector<fs::path>& inputs, const LoadOptions& options, std::vector<fs::path>& read) {
+  Model all;
+  std::vector<fs::path> models;
+  fs::path scene_before;
+  for (const fs::path& input : inputs) {
+    if (!is_scene_file_name(input)) {
+      models.push_back(input);
+      continue;
+    }
+    if (!scene_before.empty())
+      throw Error(ExitCode::kUsage, fmt::format("{} and {} are two scene files; put their solids into one",
+                                                scene_before.string(), input.string()));
+    scene_before = input;
+    SceneFile scene = read_scene_file(input);
+    append_model(all, std::move(scene.model));
+    models.insert(models.end(), scene.models.begin(), scene.models.end());
+    read.insert(read.end(), scene.models.begin(), scene.models.end());
+  }
+  append_model(all, load_models(models, options));
+  return all;
+}
+
 int pack(const PackOptions& options) {
   const std::vector<TagRule> from_options = option_rules(options), from_sidecars = sidecar_rules(options);
   const std::vector<fs::path> inputs = paths(options.inputs);
@@ -157,7 +184,10 @@ int pack(const PackOptions& options) {
     check_bare_can_keep(from_options, ExitCode::kUsage);
     check_bare_can_keep(from_sidecars, ExitCode::kBadInput);
   }
-  Model model = load_models(inputs, {std::chrono::seconds(options.time_limit_s)});
+  Model model = load_inputs(inputs, {std::chrono::seconds(options.time_limit_s)}, read);
+  check_output(options.output, "-o", read);
+  if (options.bare && !model.solids.empty())
+    throw Error(ExitCode::kUsage, "--bare has no room for solids; leave --bare or the scene file out");
   check_output(options.output, "-o", paths(model.part_files));
   join_parts(model, options.joins);
   apply_tags(model, {from_options, from_sidecars, options.default_level});
@@ -202,7 +232,10 @@ without it.)";
 void add_pack_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<PackOptions>();
   CLI::App* command = app.add_subcommand("pack", "Turn 3D models into a ROM image of drawing data");
-  command->add_option("INPUT", options->inputs, fmt::format("Model files: {}", kModelExtensions))->required();
+  command
+      ->add_option("INPUT", options->inputs,
+                   fmt::format("Model files: {}; or a scene file of solids and models: .json", kModelExtensions))
+      ->required();
   command->add_option("-o,--output", options->output, "ROM image to write")->required();
   // Each takes one argument, so that an INPUT may follow; each may be repeated.
   auto repeated = [&](const char* name, std::vector<std::string>& values, const char* help) {

@@ -51,6 +51,7 @@ struct RunOptions {
   std::string lod = "off";
   std::string attention;
   std::string boot_layers;
+  std::string thresholds;
   std::vector<std::string> policies;
   std::string engine = "soft";
   std::uint32_t threads = 1;
@@ -188,10 +189,10 @@ void check_combinations(const RunOptions& options) {
   if (options.orbit && !options.camera.empty())
     throw Error(ExitCode::kUsage, "--orbit and --camera exclude each other: choose one");
   if (options.thin == "off" && (!options.quota.empty() || !options.policies.empty() || !options.placement.empty() ||
-                                options.lod != "off" || !options.boot_layers.empty()))
+                                options.lod != "off" || !options.boot_layers.empty() || !options.thresholds.empty()))
     throw Error(ExitCode::kUsage,
-                "--thin off leaves nothing for --quota, --policy, --placement, --lod or --boot-layers to do: drop one "
-                "of them");
+                "--thin off leaves nothing for --quota, --policy, --placement, --lod, --boot-layers or --thresholds to "
+                "do: drop one of them");
   if (!options.attention.empty() && options.lod != "auto")
     throw Error(ExitCode::kUsage, "--attention is for layers that follow it: give --lod auto");
   if (options.engine == "osmesa" && options.threads != 1)
@@ -260,6 +261,9 @@ void note_what_has_no_effect(const RunOptions& options, const Desk& desk, const 
     if (!any_collapse && !value.empty())
       print_note(fmt::format("{} {} has no effect: no mesh has level 3", option, value));
   note_missing_layers(options, desk);
+  if (!options.thresholds.empty() && desk.drawing_data().solids().solids.empty())
+    print_note(fmt::format("--thresholds {} has no effect: there are no solids; give pack a scene file",
+                           options.thresholds));
   if (options.orbit && options.frames == 1) print_note("--orbit has no effect on one frame; give --frames");
   if (path.cameras() > options.frames)
     print_note(fmt::format("{}: {} cameras for {} frame(s); give --frames {} to use them all", options.camera,
@@ -276,6 +280,8 @@ int run(const RunOptions& options) {
   booting.reset();
   const PolicyOptions policies(options.policies, desk.drawing_data());
   const firmware::ThinningSettings thinning = thinning_settings(options, policies, desk);
+  firmware::SolidSettings solids;
+  if (!options.thresholds.empty()) solids.thresholds = thresholds_option("--thresholds", options.thresholds);
   const CameraPath path(options, desk);
   prepare_outputs(options);
   note_idle_scripts(options, config);
@@ -289,6 +295,7 @@ int run(const RunOptions& options) {
     for (std::uint32_t i = 0; i < options.frames; ++i, progress.step()) {
       firmware::FrameRequest request = firmware::lit_request(path.at(i), path.aspect(), background);
       request.thinning = thinning;
+      request.solids = solids;
       const Desk::Shown shown = desk.draw(request);
       records.push_back(shown.record);
       if (!options.out.empty()) write_png(picture_path(options, i), shown.picture);
@@ -348,6 +355,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Layers that the device makes as it boots, for level-3 meshes without any in ROM; per cent of their "
                    "faces, falling from 100")
       ->type_name("100,60,36,…");
+  command
+      ->add_option("--thresholds", options->thresholds,
+                   "Sizes on the screen in pixels above which solids are drawn by their high, medium and low member; "
+                   "smaller ones by their rough one")
+      ->type_name("HIGH,MEDIUM,LOW")
+      ->default_str("1,0,0");
   command
       ->add_option("--policy", options->policies,
                    "Which level-2 and level-3 meshes are thinned: always, below-area:PIXELS, chosen:NAME[,NAME…], "

@@ -44,6 +44,15 @@ ordered_json layers_json(std::span<const float> layers) {
   return list;
 }
 
+ordered_json solids_json(const firmware::SolidsReport& s) {
+  return {{"high", s.drawn[0]}, {"medium", s.drawn[1]},   {"low", s.drawn[2]},
+          {"rough", s.drawn[3]}, {"clipped", s.clipped}, {"faces", s.faces}};
+}
+
+std::uint32_t solids_drawn(const firmware::SolidsReport& s) {
+  return s.drawn[0] + s.drawn[1] + s.drawn[2] + s.drawn[3];
+}
+
 ordered_json frame_json(const FrameRecord& f) {
   const firmware::ThinningReport& t = f.firmware.thinning;
   return {{"frame", f.frame},
@@ -64,6 +73,7 @@ ordered_json frame_json(const FrameRecord& f) {
           {"scanout_ms", f.scanout_ms},
           {"host_ms", f.host_ms},
           {"layers", layers_json(f.layers)},
+          {"solids", solids_json(f.firmware.solids)},
           {"thinning",
            {{"cause", t.meshes_in > 0 ? cause_name(t.cause) : "nothing drawn"},
             {"decisions", decisions_json(t)},
@@ -152,9 +162,13 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
     text += fmt::format("  faces   {} in the ROM, {} after thinning, {} on the screen\n", t.faces_in, t.faces_out,
                         last.firmware.faces_drawn);
     text += layers_text(summary, frames);
-  } else {
-    text += "  nothing was drawn\n";
   }
+  const firmware::SolidsReport& s = last.firmware.solids;
+  if (solids_drawn(s) + s.clipped > 0)
+    text += fmt::format("  solids  {} in sight of {}: {} high, {} medium, {} low, {} rough; {} faces\n",
+                        solids_drawn(s), solids_drawn(s) + s.clipped, s.drawn[0], s.drawn[1], s.drawn[2], s.drawn[3],
+                        s.faces);
+  if (t.meshes_in == 0 && solids_drawn(s) + s.clipped == 0) text += "  nothing was drawn\n";
   text += fmt::format(
       "  device  thinning {:.2f} ms a frame ({:.2f} ms the longest), drawing {:.2f} ms a frame, scan-out {:.2f} ms "
       "(virtual time)\n",

@@ -170,7 +170,7 @@ void apply_tags(Model& model, const TagSources& sources) {
   apply_regions(model);
   note_unused_properties(model);
   settle_layers(model, sources.options);
-  if (!any_level)
+  if (!any_level && !model.meshes.empty())
     model.notes.push_back(
         "no mesh has a thinning level, so all are kept whole. Give --level NAME=3 or --default-level 3, or in Blender "
         "give the "

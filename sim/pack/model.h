@@ -1,6 +1,7 @@
 // A 3D model in the host's memory, whatever file it came from: what pack writes into ROM and what thin works on.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "firmware/drawing_data/format.h"
 #include "firmware/simplify/simplify.h"
+#include "firmware/solids/solid_format.h"
 #include "hal/command_list.h"
 #include "hal/vec.h"
 
@@ -116,12 +118,24 @@ struct Mesh {
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
+/// A basic solid (firmware/solids/solid_format.h).
+struct Solid {
+  std::string name;
+  firmware::format::SolidKind kind{};
+  std::array<float, firmware::format::kMaxSolidSizes> size{};
+  std::array<float, 12> to_model{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};  // row-major 3 x 4
+  Rgba8 colour{};
+};
+
 struct Model {
   std::vector<Mesh> meshes;
   std::vector<std::string> notes;         // what the user should know, a line each: what was left out, what was made up
   std::vector<std::string> part_files{};  // beside the model file, read as parts of it: buffers and images
   std::vector<Picture> textures{};
   std::vector<Material> materials{};
+  std::vector<Solid> solids{};
+  std::vector<Vec3> view_candidates{};  // of solids, unit length; none: the default ones
+  firmware::format::SolidDetail solid_detail{};
 };
 
 }  // namespace usuzumi::sim

@@ -33,6 +33,11 @@ class Bytes {
   void set_u32(std::uint32_t offset, std::uint32_t v) {
     for (unsigned i = 0; i < 4; ++i) bytes_[offset + i] = static_cast<std::byte>(v >> (8 * i) & 0xFF);
   }
+  std::uint32_t u32_at(std::uint32_t offset) const {
+    std::uint32_t v = 0;
+    for (unsigned i = 0; i < 4; ++i) v |= std::to_integer<std::uint32_t>(bytes_[offset + i]) << (8 * i);
+    return v;
+  }
   std::span<const std::byte> from(std::uint32_t offset) const { return std::span(bytes_).subspan(offset); }
   std::vector<std::byte> take() { return std::move(bytes_); }
 

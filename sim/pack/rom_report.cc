@@ -14,6 +14,7 @@
 #include "hal/crc32.h"
 #include "sim/pack/appearance_report.h"
 #include "sim/pack/layer_report.h"
+#include "sim/pack/solid_report.h"
 
 namespace usuzumi::sim {
 namespace {
@@ -131,6 +132,7 @@ std::string describe_json(const DrawingData& data, const std::string& file, cons
   j["materials"] = materials_json(data);
   j["meshes"] = json::array();
   data.for_each_mesh([&](const MeshView& mesh) { j["meshes"].push_back(mesh_json(mesh)); });
+  j["solids"] = solids_json(data);
   return j.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -140,13 +142,16 @@ std::string describe_text(const DrawingData& data, const std::string& file, cons
                   data.bare() ? std::string("bare drawing data") : "container version " + version_of(data.bytes()),
                   data.board().empty() ? "" : fmt::format(" for board {} alone", data.board()), data.bytes().size(),
                   crc_of(data), data.mesh_max(), totals.vertices, totals.faces);
-  out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:<8}  {}\n", "mesh",
-                     "name", totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags",
-                     "colour", "material", "bounding box");
-  data.for_each_mesh([&](const MeshView& mesh) { out += mesh_line(mesh, totals.name_width); });
-  out += "flags: n normals, c vertex colours, x texture coordinates, 2 two-sided, t telltale\n";
+  if (data.mesh_max() > 0) {
+    out += fmt::format("{:>5}  {:<{}}  {:<10}  {:<8}  {:>9}  {:>9}  {:>8}  {:>8}  {:<5}  {:<9}  {:<8}  {}\n", "mesh",
+                       "name", totals.name_width, "level", "topology", "vertices", "faces", "quota", "area px", "flags",
+                       "colour", "material", "bounding box");
+    data.for_each_mesh([&](const MeshView& mesh) { out += mesh_line(mesh, totals.name_width); });
+    out += "flags: n normals, c vertex colours, x texture coordinates, 2 two-sided, t telltale\n";
+  }
   out += appearance_text(data);
   out += layers_text(data);
+  out += solids_text(data);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/solids/view_candidates.h"
 #include "sim/pack/method_settings.h"
 #include "sim/pack/texture_levels.h"
 
@@ -47,6 +48,7 @@ RomSections::RomSections(const Model& model, const RomOptions& options) {
   for (const Mesh& mesh : model.meshes) add_mesh(mesh);
   for (const Material& material : model.materials) add_material(material);
   for (const Picture& picture : model.textures) add_texture(picture, options);
+  add_solids(model);
   names_.pad_to_word();
   board_.text(options.board);
   board_.pad_to_word();
@@ -140,6 +142,33 @@ void RomSections::add_layers(const Mesh& mesh, format::MeshDescriptor& d) {
   layers_.raw(mesh.layer_chain);
 }
 
+void RomSections::add_solids(const Model& model) {
+  if (model.solids.empty()) return;
+  const std::span<const Vec3> candidates =
+      model.view_candidates.empty() ? std::span<const Vec3>(firmware::kDefaultCandidates) : model.view_candidates;
+  solids_.u32(static_cast<std::uint32_t>(model.solids.size()));
+  solids_.u32(static_cast<std::uint32_t>(candidates.size()));
+  const format::SolidDetail& d = model.solid_detail;
+  for (const auto& members : {d.sphere_around, d.sphere_rows, d.hemisphere_around, d.hemisphere_rows, d.round_sides})
+    for (std::uint32_t m = 0; m < format::kFacedMembers; ++m) solids_.u32(members[m]);
+  solids_.u32(0);
+  for (const Vec3& c : candidates) {
+    solids_.f32(c.x);
+    solids_.f32(c.y);
+    solids_.f32(c.z);
+  }
+  for (const Solid& solid : model.solids) {
+    solids_.u32(static_cast<std::uint32_t>(solid.kind));
+    for (const float size : solid.size) solids_.f32(size);
+    for (const float m : solid.to_model) solids_.f32(m);
+    solids_.u32(solid.colour.bits);
+    if (!solid.name.empty()) solid_names_.push_back(solids_.size());
+    solids_.u32(solid.name.empty() ? format::kAbsent : names_.size());
+    solids_.u32(static_cast<std::uint32_t>(solid.name.size()));
+    names_.text(solid.name);
+  }
+}
+
 void RomSections::add_material(const Material& material) {
   materials_.u32(number_or_absent(material.texture));
   materials_.u32(static_cast<std::uint32_t>(material.filter));
@@ -214,7 +243,7 @@ std::vector<RomSections::Placed> RomSections::place(std::uint32_t first_section,
   // Sizes count first: MSHD and TEXT are written again when all offsets are known.
   std::vector<Placed> all;
   const auto add = [&](Type type, Bytes bytes) {
-    if (bytes.size() != 0 || type == Type::kNames) all.push_back({type, std::move(bytes), 0});
+    if (bytes.size() != 0 || type == Type::kNames || type == Type::kMeshes) all.push_back({type, std::move(bytes), 0});
   };
   add(Type::kRecords, std::move(records_));
   add(Type::kMeshes, descriptor_bytes());
@@ -229,6 +258,7 @@ std::vector<RomSections::Placed> RomSections::place(std::uint32_t first_section,
   add(Type::kMethods, std::move(methods_));
   add(Type::kEdgeValues, std::move(edge_values_));
   add(Type::kLayers, std::move(layers_));
+  add(Type::kSolids, solids_);
   add(Type::kNames, std::move(names_));
   add(Type::kBoard, std::move(board_));
 
@@ -252,6 +282,9 @@ std::vector<RomSections::Placed> RomSections::place(std::uint32_t first_section,
   }
   for (Placed& section : all) {
     if (section.type == Type::kMeshes) section.bytes = descriptor_bytes();
+    if (section.type == Type::kSolids)
+      for (const std::uint32_t entry : solid_names_)
+        section.bytes.set_u32(entry, solids_.u32_at(entry) + at[Type::kNames]);
     if (section.type == Type::kTextures) section.bytes = texture_bytes(at[Type::kTexels], at[Type::kNames]);
   }
   return all;

@@ -24,8 +24,8 @@ class RomSections {
  public:
   RomSections(const Model& model, const RomOptions& options);
 
-  /// In the order in which they are written, empty ones left out; NAME is there always, so that a nameless mesh's name
-  /// still lies somewhere. Each has its offset from the file's start, the first at `begin`.
+  /// In the order in which they are written, empty ones left out; MSHD is there always, and NAME, so that a nameless
+  /// mesh's name still lies somewhere. Each has its offset from the file's start, the first at `begin`.
   struct Placed {
     firmware::format::SectionType type{};
     Bytes bytes;
@@ -42,14 +42,16 @@ class RomSections {
   void add_method(const Mesh& mesh, firmware::format::MeshDescriptor& d);
   void add_layers(const Mesh& mesh, firmware::format::MeshDescriptor& d);
   void add_material(const Material& material);
+  void add_solids(const Model& model);
   void add_texture(const Picture& picture, const RomOptions& options);
   Bytes descriptor_bytes() const;
   Bytes texture_bytes(std::uint32_t texels_at, std::uint32_t names_at) const;
 
   Bytes records_, indices_, normals_, colours_, texture_coordinates_, materials_, texels_, methods_, edge_values_,
-      groups_, layers_, names_, board_;
+      groups_, layers_, solids_, names_, board_;
   std::vector<firmware::format::MeshDescriptor> meshes_;
   std::vector<firmware::format::Texture> textures_;
+  std::vector<std::uint32_t> solid_names_;  // where their offsets stand in SOLD
   std::map<std::array<std::uint32_t, 10>, std::uint32_t> settings_;  // words -> where they lie in METH
 };
 

@@ -18,7 +18,8 @@ namespace {
 namespace format = firmware::format;
 
 void check_mesh_count(const Model& model) {
-  if (model.meshes.empty()) throw Error(ExitCode::kBadInput, "nothing to pack: the input has no triangles");
+  if (model.meshes.empty() && model.solids.empty())
+    throw Error(ExitCode::kBadInput, "nothing to pack: the input has no triangles");
   if (model.meshes.size() > format::kMaxMeshes)
     throw Error(ExitCode::kBadInput,
                 fmt::format("{} meshes, but drawing data hold at most {}; join some in the modelling tool",
@@ -31,6 +32,7 @@ void check_size(const Model& model) {
   for (const Mesh& mesh : model.meshes)
     bytes += 512 + mesh.name.size() + 32 * std::uint64_t{mesh.positions.size()} +
              4 * std::uint64_t{mesh.indices.size()} + 16 * std::uint64_t{mesh.parts.size()} + mesh.layer_chain.size();
+  for (const Solid& solid : model.solids) bytes += 128 + solid.name.size();
   for (const Picture& picture : model.textures)  // 4 bytes a texel; all levels are at most twice the first
     bytes += 512 + picture.name.size() + 8 * std::uint64_t{picture.texels.size()};
   if (bytes > format::kMaxFileBytes)

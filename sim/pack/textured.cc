@@ -115,6 +115,10 @@ void append_model(Model& all, Model&& more) {
   move_all(more.textures, all.textures);
   move_all(more.notes, all.notes);
   move_all(more.part_files, all.part_files);
+  if (more.solids.empty()) return;
+  move_all(more.solids, all.solids);
+  all.view_candidates = std::move(more.view_candidates);
+  all.solid_detail = more.solid_detail;
 }
 
 }  // namespace usuzumi::sim

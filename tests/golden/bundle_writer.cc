@@ -104,6 +104,7 @@ RunRecord run_record(Writer& out, const DeviceRun& run) {
   record.layer_mode = static_cast<std::uint32_t>(run.thinning.layers.mode);
   record.quotas = out.put_all(run.quotas_millionths);
   record.boot_layers = out.put_all(run.boot_layers_millionths);
+  record.thresholds = out.put_all(run.thresholds);
   record.angles = out.put_all(angles);
   record.rom = out.put(run.rom().bytes());
   return record;

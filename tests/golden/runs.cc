@@ -9,6 +9,7 @@
 #include "sim/pack/load_model.h"
 #include "sim/pack/prepare_textures.h"
 #include "sim/pack/rom_writer.h"
+#include "sim/pack/scene_file.h"
 #include "tests/support/desk_request.h"
 #include "tests/support/mesh_shapes.h"
 #include "tests/support/scene_meshes.h"
@@ -162,6 +163,16 @@ DeviceRun boot_layers() {
   return run;
 }
 
+/// By all members, then by one table of the paper's after another.
+DeviceRun solids() {
+  DeviceRun run{"run-14-solids", "a cat of 63 solids by their four members", with_ram(sim::host_sim(), 320 * kKiB),
+                240, 160,
+                [] { return testing::RomImage::of(sim::write_container(sim::read_scene_file(USUZUMI_CAT).model)); },
+                {}, {0.3, 0.7, -0.4}, {}};
+  run.thresholds = {{1, 0, 0}, {1024, 1024, 0}, {24, 16, 8}};
+  return run;
+}
+
 firmware::ThinningSettings one_budget(std::uint32_t faces) {
   firmware::ThinningSettings settings;
   settings.quota = {QuotaKind::kFaces, faces};
@@ -298,6 +309,7 @@ std::span<const DeviceRun> all_runs() {
       globe("run-11-globe-vertex-deletion", "the same by vertex deletion", firmware::Method::kVertexDeletion),
       middle_layers(),
       boot_layers(),
+      solids(),
   };
   return runs;
 }
@@ -317,6 +329,7 @@ RunPicture draw_run(const DeviceRun& run, std::size_t first_frame, std::uint32_t
     request.thinning = run.thinning;
     if (!run.quotas_millionths.empty())
       request.thinning.quota = {QuotaKind::kMillionths, run.quotas_millionths[frame]};
+    if (!run.thresholds.empty()) request.solids.thresholds = run.thresholds[frame];
     const auto shown = desk.draw(request);
     const bool last = frame + 1 == run.azimuths_rad.size();
     result.entries.push_back(frame_entry(run, frame, last, shown.picture));
@@ -324,6 +337,7 @@ RunPicture draw_run(const DeviceRun& run, std::size_t first_frame, std::uint32_t
     result.picture = shown.picture;
     result.signature_crc = shown.record.crc32;
     result.thinning = shown.record.firmware.thinning;
+    result.solids = shown.record.firmware.solids;
   }
   append_meshes(run, desk.device().thinning(), result.entries);
   std::sort(result.entries.begin(), result.entries.end(),

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware/solids/solid_choice.h"
 #include "firmware/thinning/policy.h"
 #include "sim/desk/desk.h"
 #include "tests/golden/golden_store.h"
@@ -31,6 +32,7 @@ struct DeviceRun {
   std::vector<NotOn> not_on;
   std::vector<std::uint32_t> quotas_millionths = {};  // one a frame, in place of the settings' quota; or none
   std::vector<std::uint32_t> boot_layers_millionths = {};
+  std::vector<firmware::Thresholds> thresholds = {};  // of solids, one a frame; or none
 };
 
 std::span<const DeviceRun> all_runs();
@@ -40,6 +42,7 @@ struct RunPicture {
   std::uint32_t signature_crc = 0;  // of it, by the display controller's signature unit
   std::uint32_t vram_crc = 0;       // of it, straight from VRAM
   firmware::ThinningReport thinning;
+  firmware::SolidsReport solids;
   sim::Desk::Memory memory;
   /// The manifest's lines: every frame, and every mesh of the RAM copy after the last one, sorted by name.
   std::vector<Entry> entries;

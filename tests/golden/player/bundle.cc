@@ -189,6 +189,10 @@ Result<RunCase> Bundle::run(std::uint32_t n) const {
     return data_loss("bundle: quotas or layers beyond the end, at byte", details.offset);
   run.quotas_millionths = words_in(bytes_, r.quotas);
   run.boot_layers_millionths = words_in(bytes_, r.boot_layers);
+  if (!is_table_of<firmware::Thresholds>(bytes_, r.thresholds))
+    return data_loss("bundle: thresholds beyond the end, at byte", details.offset);
+  run.thresholds = {reinterpret_cast<const firmware::Thresholds*>(bytes_.data() + r.thresholds.offset),
+                    r.thresholds.bytes / sizeof(firmware::Thresholds)};
   run.width = r.width;
   run.height = r.height;
   run.pixel_format = static_cast<command::PixelFormat>(r.pixel_format);
@@ -199,6 +203,8 @@ Result<RunCase> Bundle::run(std::uint32_t n) const {
   run.frame_count = r.angles.bytes / kDoubleBytes - 1;
   if (!run.quotas_millionths.empty() && run.quotas_millionths.size() != run.frame_count)
     return data_loss("bundle: not a quota for every frame, at byte", details.offset);
+  if (!run.thresholds.empty() && run.thresholds.size() != run.frame_count)
+    return data_loss("bundle: not thresholds for every frame, at byte", details.offset);
   run.rom = bytes_.subspan(r.rom.offset, r.rom.bytes);
   return run;
 }

@@ -14,6 +14,7 @@
 #include <span>
 #include <string_view>
 
+#include "firmware/solids/solid_choice.h"
 #include "firmware/thinning/policy.h"
 #include "hal/bus.h"
 #include "hal/command_list.h"
@@ -25,7 +26,7 @@ namespace usuzumi::golden {
 namespace bundle {
 
 inline constexpr std::uint32_t kMagic = 0x42475A55;  // "UZGB"
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 inline constexpr BusAddress kDataBase = 0x10000000, kVramBase = 0x20000000;
 /// Longest texts, in bytes.
 inline constexpr std::uint32_t kNameMax = 48, kBoardMax = 32, kReasonMax = 120;
@@ -81,6 +82,7 @@ struct RunRecord {
   std::uint32_t layer_mode;  // firmware::LayerMode
   Block quotas;              // one a frame, of millionths, in place of the quota above; or empty
   Block boot_layers;         // words, DeviceConfig::boot_layers_millionths
+  Block thresholds;          // three singles a frame, SolidSettings::thresholds; or empty
   Block angles;  // doubles, low word first, radians: the camera's elevation, then its azimuth for each frame
   Block rom;     // drawing data
 };
@@ -110,6 +112,7 @@ struct RunCase {
   std::uint32_t frame_count = 0;
   std::span<const std::uint32_t> quotas_millionths;  // frame_count, or none
   std::span<const std::uint32_t> boot_layers_millionths;
+  std::span<const firmware::Thresholds> thresholds;  // frame_count, or none
   std::span<const std::byte> rom;
 };
 

@@ -49,6 +49,7 @@ firmware::FrameRequest request_for(const RunCase& run, const firmware::Bounds& b
   request.thinning = run.thinning;
   if (!run.quotas_millionths.empty())
     request.thinning.quota = {firmware::format::QuotaKind::kMillionths, run.quotas_millionths[frame]};
+  if (!run.thresholds.empty()) request.solids.thresholds = run.thresholds[frame];
   return request;
 }
 
