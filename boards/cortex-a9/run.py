@@ -23,8 +23,9 @@ FRAME_US = 16_667
 REPORT_US = 40_000   # the line behind each step, nearly all of it the CRC-32 of the picture
 # Budgets of the truck's frames: what it takes today and an eighth more, of code 5 %. Who exceeds one finds out why, then
 # raises it. Code: the engine 210 KB (kernels of three texel fetches, each a copy for NEON), four methods of thinning with
-# textures and seams 111 KB, layers 23 KB. Instructions: every pixel of the truck is four texels, its floats lane by lane.
-CODE_BUDGET, RAM_BUDGET, INSTRUCTION_BUDGET = 470_000, 1_550_000, 70_200_000
+# textures and seams 111 KB, layers 23 KB, solids 20 KB. Instructions: every pixel of the truck is four texels, its floats
+# lane by lane.
+CODE_BUDGET, RAM_BUDGET, INSTRUCTION_BUDGET = 494_000, 1_550_000, 70_200_000
 
 
 def fields_of(line):

@@ -27,11 +27,6 @@ bool detail_is_sound(const format::SolidDetail& d) {
   return sound;
 }
 
-/// NaN is not.
-bool is_within(Vec3 v, float most) {
-  return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most;
-}
-
 bool sizes_are_sound(const Solid& solid) {
   const std::uint32_t count = format::kSolidSizeCount[static_cast<std::uint32_t>(solid.kind)];
   for (std::uint32_t i = 0; i < format::kMaxSolidSizes; ++i) {
@@ -41,31 +36,13 @@ bool sizes_are_sound(const Solid& solid) {
   return true;
 }
 
-/// Whether the solid, placed, is where coordinates may be, and has a volume.
-bool placement_is_sound(const Solid& solid) {
-  for (const float m : solid.to_model)
-    if (!(std::fabs(m) <= kMaxCoordinate)) return false;
-  for (const Vec3 corner : corners_of(solid).of)
-    if (!is_within(corner, kMaxCoordinate)) return false;
-  const SolidPlacement placement = SolidPlacement::of(solid);
-  // Of unit length, so that neither a very small nor a very large solid falls out of single precision.
-  constexpr float kFlat = 1e-4f;
-  Vec3 axes[3];
-  for (int i = 0; i < 3; ++i) {
-    const float l = length(placement.column[i]);
-    if (!(l > 0) || !std::isfinite(l)) return false;
-    axes[i] = placement.column[i] * (1.0f / l);
-  }
-  return std::fabs(dot(axes[0], cross(axes[1], axes[2]))) >= kFlat;
-}
-
 Status check_solid(const Solid& solid, const Sections& sections, std::uint32_t at) {
   if (static_cast<std::uint32_t>(solid.kind) >= format::kSolidKindCount)
     return damaged("solid is of no known kind, at byte offset", at);
   if (!sizes_are_sound(solid))
     return damaged("solid has a size that is not above 0 or that its kind has not, at byte offset",
                    at + static_cast<std::uint32_t>(offsetof(Solid, size)));
-  if (!placement_is_sound(solid))
+  if (!is_placed_soundly(solid))
     return damaged("solid is placed flat, or beyond 1e8 or -1e8, at byte offset",
                    at + static_cast<std::uint32_t>(offsetof(Solid, to_model)));
   if (!sections.names.holds_text(solid.name_offset, solid.name_bytes))

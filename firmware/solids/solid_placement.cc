@@ -1,8 +1,19 @@
 #include "firmware/solids/solid_placement.h"
 
+#include <cmath>
+
+#include "firmware/simplify/bounds.h"
 #include "firmware/solids/solid_shape.h"
 
 namespace usuzumi::firmware {
+namespace {
+
+/// NaN is not.
+bool is_within(Vec3 v, float most) {
+  return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most;
+}
+
+}  // namespace
 
 SolidPlacement SolidPlacement::of(const format::Solid& solid) {
   const float* m = solid.to_model;
@@ -24,6 +35,23 @@ SolidCorners corners_of(const format::Solid& solid) {
     corners.of[i] = placement.point({(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
                                      (i & 4) != 0 ? half.z : -half.z});
   return corners;
+}
+
+bool is_placed_soundly(const format::Solid& solid) {
+  for (const float m : solid.to_model)
+    if (!(std::fabs(m) <= kMaxCoordinate)) return false;
+  for (const Vec3 corner : corners_of(solid).of)
+    if (!is_within(corner, kMaxCoordinate)) return false;
+  const SolidPlacement placement = SolidPlacement::of(solid);
+  // Of unit length, so that neither a very small nor a very large solid falls out of single precision.
+  constexpr float kFlat = 1e-4f;
+  Vec3 axes[3];
+  for (int i = 0; i < 3; ++i) {
+    const float l = length(placement.column[i]);
+    if (!(l > 0) || !std::isfinite(l)) return false;
+    axes[i] = placement.column[i] * (1.0f / l);
+  }
+  return std::fabs(dot(axes[0], cross(axes[1], axes[2]))) >= kFlat;
 }
 
 }  // namespace usuzumi::firmware

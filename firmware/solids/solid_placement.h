@@ -25,4 +25,7 @@ struct SolidCorners {
 };
 SolidCorners corners_of(const format::Solid& solid);
 
+/// Whether the solid, whose sizes are sound, is placed within kMaxCoordinate and not flattened.
+bool is_placed_soundly(const format::Solid& solid);
+
 }  // namespace usuzumi::firmware

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "firmware/solids/solid_placement.h"
 #include "hal/trigonometry.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
@@ -141,6 +142,10 @@ Solid read_solid(const std::string& where, const json& value) {
   }
   solid.to_model = placement_of(r);
   solid.colour = colour_of(r);
+  format::Solid placed{.kind = solid.kind};
+  std::copy(solid.size.begin(), solid.size.end(), placed.size);
+  std::copy(solid.to_model.begin(), solid.to_model.end(), placed.to_model);
+  if (!firmware::is_placed_soundly(placed)) r.fail("is placed flat, or beyond 1e8 or -1e8");
   return solid;
 }
 

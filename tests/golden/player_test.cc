@@ -193,6 +193,7 @@ TEST(GoldenBundle, KeepsEverySettingOfThinning) {
   run.thinning.collapse_policy = {firmware::PolicyKind::kChosen, 0, kChosen, 250'000, 77};
   run.thinning.quota = {firmware::format::QuotaKind::kMillionths, 300'000};
   run.thinning.placement = firmware::Placement::kMidpoint;
+  run.thresholds = {{3, 2, 1}, {9, 8, 7}};
   const TestBundle bundle(write_bundle({}, std::vector{run}));
   const auto opened = Bundle::open(bundle.bytes());
   ASSERT_TRUE(opened.ok()) << opened.status().message;
@@ -208,6 +209,8 @@ TEST(GoldenBundle, KeepsEverySettingOfThinning) {
   EXPECT_EQ(read->thinning.quota.kind, firmware::format::QuotaKind::kMillionths);
   EXPECT_EQ(read->thinning.quota.value, 300'000u);
   EXPECT_EQ(read->thinning.placement, firmware::Placement::kMidpoint);
+  ASSERT_EQ(read->thresholds.size(), 2u);
+  EXPECT_EQ(read->thresholds[1], (firmware::Thresholds{9, 8, 7}));
   EXPECT_EQ(read->ram_bytes, 20'000u);
   EXPECT_EQ(read->frame_count, 2u);
   EXPECT_EQ(opened->azimuth_rad(0, 1), 0.2);

@@ -291,6 +291,51 @@ TEST_F(RunCommand, DrawsMeshesFromTheirLayers) {
   EXPECT_NE(beyond.find("or the quota lies beyond their last layer"), std::string::npos) << beyond;
 }
 
+TEST_F(RunCommand, DrawsSolidsByTheMembersThatThresholdsAskFor) {
+  write("scene.json", R"({"solids": [{"kind": "sphere", "diameter": 4},
+                                     {"kind": "sphere", "diameter": 1, "position": [4, 0, 0]},
+                                     {"kind": "cone", "diameter": 0.2, "height": 0.4, "position": [0, 3, 0]}]})");
+  ASSERT_EQ(usuzumi("pack scene.json -o scene.rom").exit_code, 0);
+  const auto solids = [&](const std::string& options) {
+    const Ran ran = usuzumi("run scene.rom --size 160x96 --stats stats.json " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    return json_file("stats.json")["frames"][0];
+  };
+  const auto whole = solids("");
+  EXPECT_EQ(whole["solids"]["high"], 3);
+  EXPECT_EQ(whole["solids"]["faces"], 128 + 128 + 17) << "table 2";
+  EXPECT_GT(whole["faces_drawn"].get<int>(), 128);
+  // The large ball is some 35 pixels wide, the small one a quarter of that, the cone 2.
+  const auto mixed = solids("--thresholds 20,5,4");
+  EXPECT_EQ(mixed["solids"]["high"], 1);
+  EXPECT_EQ(mixed["solids"]["medium"], 1);
+  EXPECT_EQ(mixed["solids"]["low"], 0);
+  EXPECT_EQ(mixed["solids"]["rough"], 1);
+  EXPECT_EQ(mixed["solids"]["faces"], 128 + 50 + 1);
+  EXPECT_NE(mixed["crc32"], whole["crc32"]);
+  EXPECT_EQ(solids("--thresholds 2048,2048,2048")["solids"]["faces"], 3);
+  EXPECT_EQ(solids("--thin off")["crc32"], whole["crc32"]);
+  const auto low = solids("--thresholds 1024,1024,0");
+  EXPECT_EQ(low["solids"]["low"], 3);
+  EXPECT_LT(low["engine_cycles"].get<int>(), whole["engine_cycles"].get<int>());
+  EXPECT_EQ(solids("--thresholds 1024,1024,0 --threads 2")["crc32"], low["crc32"]);
+
+  for (const char* wrong : {"1,2,3", "3,2", "3,2,1,0", "a,b,c", "3,2,-1", "", "nan,0,0"})
+    expect_one_line_error(usuzumi(std::string("run scene.rom --thresholds=") + wrong), 2, "--thresholds");
+  expect_one_line_error(usuzumi("run scene.rom --thin off --thresholds 3,2,1"), 2, "--thresholds");
+  EXPECT_EQ(usuzumi("run hills.rom --size 160x96 --thresholds 3,2,1").err,
+            "note: --thresholds 3,2,1 has no effect: there are no solids; give pack a scene file\n");
+}
+
+TEST_F(RunCommand, SaysWhereTheMembersOfSolidsHaveNoRoom) {
+  std::string scene = R"({"solids": [)";
+  for (int i = 0; i < 3000; ++i) scene += std::string(i > 0 ? "," : "") + R"({"kind": "sphere", "diameter": 1})";
+  write("many.json", scene + "]}");
+  ASSERT_EQ(usuzumi("pack many.json -o many.rom").exit_code, 0);
+  expect_one_line_error(usuzumi("run many.rom --board small"), 5, "members of the solids");
+}
+
 TEST_F(RunCommand, RefusesLayersAndAttentionThatCannotBe) {
   expect_one_line_error(usuzumi("run hills.rom --boot-layers 100,60,80"), 2, "--boot-layers 100,60,80");
   expect_one_line_error(usuzumi("run hills.rom --boot-layers 60,30"), 2, "--boot-layers 60,30");
