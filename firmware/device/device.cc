@@ -25,9 +25,10 @@ Status Device::boot(const DeviceConfig& config) {
             static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(data->board().data()) - ports_.rom.data())};
   data_ = *data;
   ram_ = Arena(ports_.ram);
-  command_words_ = ram_.allocate<std::uint32_t>(scene_command_words(data_));
+  const std::uint32_t words = scene_command_words(data_);
+  command_words_ = ram_.allocate<std::uint32_t>(words);
   if (command_words_.empty())
-    return {StatusCode::kResourceExhausted, "RAM has no room for the command list; meshes", data_.mesh_max()};
+    return {StatusCode::kResourceExhausted, "RAM has no room for the command list; its words", words};
   status = solids_.begin(data_.solids(), ram_);
   if (!status.ok()) return status;
   status = thinning_.begin(data_, ram_, rom_on_bus(), config.boot_layers_millionths);
@@ -95,7 +96,9 @@ Status Device::draw_list(const View& view, const FrameRequest& request, FrameRep
   const Scanout& scanout = vram_.scanout;
   const FrameTarget target{scanout.picture[back_], scanout.stride_bytes,     scanout.format,
                            vram_.depth,            vram_.depth_stride_bytes, vram_.depth_format};
-  const SolidsToDraw solids{solids_, request.solids, report.solids};
+  SolidSettings settings = request.solids;
+  if (!request.thinning.enabled) settings.thresholds = {0, 0, 0};
+  const SolidsToDraw solids{solids_, settings, report.solids};
   const auto list = write_scene(thinning_, view, request.lighting, target, ports_.bus, command_words_, &solids);
   if (!list.ok()) return list.status();
   ports_.clock.charge(CpuWork::kCommandWritten, list->size());

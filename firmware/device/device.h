@@ -50,7 +50,7 @@ struct FrameRequest {
   Mat4 model_to_clip;
   Lighting lighting;
   ThinningSettings thinning;
-  SolidSettings solids;
+  SolidSettings solids;  // with thinning off, thresholds are 0: all are drawn by their high member
 };
 
 struct FrameReport {

@@ -25,7 +25,7 @@ struct Lighting {
 
 /// Which members solids are drawn with.
 struct SolidSettings {
-  Thresholds thresholds;   // that fall; where they do not, all are drawn whole
+  Thresholds thresholds;   // that fall; where they do not, the default
   float clip_margin = 0;   // SolidView: solids so far outside the picture are taken to be in sight
 };
 

@@ -27,23 +27,14 @@ bool detail_is_sound(const format::SolidDetail& d) {
   return sound;
 }
 
-bool sizes_are_sound(const Solid& solid) {
-  const std::uint32_t count = format::kSolidSizeCount[static_cast<std::uint32_t>(solid.kind)];
-  for (std::uint32_t i = 0; i < format::kMaxSolidSizes; ++i) {
-    const float size = solid.size[i];
-    if (i < count ? !(size > 0 && size <= kMaxCoordinate) : size != 0) return false;
-  }
-  return true;
-}
-
 Status check_solid(const Solid& solid, const Sections& sections, std::uint32_t at) {
   if (static_cast<std::uint32_t>(solid.kind) >= format::kSolidKindCount)
     return damaged("solid is of no known kind, at byte offset", at);
-  if (!sizes_are_sound(solid))
-    return damaged("solid has a size that is not above 0 or that its kind has not, at byte offset",
+  if (!has_sound_sizes(solid))
+    return damaged("solid has a size below 1e-6 or above 1e8, or one that its kind has not, at byte offset",
                    at + static_cast<std::uint32_t>(offsetof(Solid, size)));
   if (!is_placed_soundly(solid))
-    return damaged("solid is placed flat, or beyond 1e8 or -1e8, at byte offset",
+    return damaged("solid is placed flat, shrunk below 1e-6, or beyond 1e8 or -1e8, at byte offset",
                    at + static_cast<std::uint32_t>(offsetof(Solid, to_model)));
   if (!sections.names.holds_text(solid.name_offset, solid.name_bytes))
     return damaged("name lies outside section NAME, in the solid at byte offset", at);

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kSolidKindCount = 10;
 
 /// The y axis is the solid's, upwards; the origin is half-way between its bottom and its top, on the axis.
 ///
-/// | kind | size, in the solid's own units, each > 0 |
+/// | kind | size, in the solid's own units, each 1e-6 to 1e8 |
 /// |---|---|
 /// | sphere, hemisphere (its dome upwards) | diameter |
 /// | cone | diameter of the base, height |
@@ -39,15 +39,17 @@ inline constexpr std::uint32_t kSolidKindCount = 10;
 /// | triangular pyramid | base of the bottom triangle (along x), its height (along z), height |
 /// | trapezoid | bottom x, bottom z, top x, top z, height |
 inline constexpr std::uint32_t kMaxSolidSizes = 5;
+/// Sizes and stretches below this leave single precision no normals; above 1e8 are no coordinates.
+inline constexpr float kLeastSolidSize = 1e-6f;
 inline constexpr std::uint32_t kSolidSizeCount[kSolidKindCount] = {1, 1, 2, 2, 3, 1, 3, 2, 3, 5};
 
 struct Solid {                        // 84 bytes
   SolidKind kind{};
   float size[kMaxSolidSizes] = {};    // what the kind has not must be 0
-  /// To the model's coordinates: row-major 3 x 4, the last column the origin's place. May turn, stretch and mirror, not
-  /// flatten.
+  /// To the model's coordinates: row-major 3 x 4, the last column the origin's place. May turn, stretch (1e-6 to 1e8)
+  /// and mirror, not flatten: its axes of unit length span at least 1e-4 of a cube.
   float to_model[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-  std::uint32_t colour = 0xFFFFFFFF;  // Rgba8, display-referred
+  std::uint32_t colour = 0xFFFFFFFF;  // Rgba8, display-referred; solids are opaque
   std::uint32_t name_offset = 0xFFFFFFFF;  // into section NAME, from the file's start; kAbsent: none
   std::uint32_t name_bytes = 0;
 };
@@ -71,7 +73,7 @@ inline constexpr std::uint32_t kMaxViewCandidates = 32;
 
 struct SolidsHeader {                 // 72 bytes
   std::uint32_t solid_count = 0;      // 1 .. kMaxSolids
-  std::uint32_t candidate_count = 0;  // 1 .. kMaxViewCandidates; the first six are the axes, see view_candidates.h
+  std::uint32_t candidate_count = 0;  // 1 .. kMaxViewCandidates
   SolidDetail detail;
   std::uint32_t reserved = 0;         // must be 0
 };

@@ -138,49 +138,59 @@ class MemberWriter {
   std::uint32_t vertices_ = 0, indices_ = 0, low_faces_ = 0;
 };
 
+/// Of all solids of one kind, which differ in size alone, the first is counted.
 SolidMembers::Sizes SolidMembers::sizes_of(const SolidsView& solids) {
-  Sizes sizes;
+  struct OfKind {
+    std::uint32_t solids = 0;
+    const format::Solid* first = nullptr;
+  };
+  OfKind kinds[format::kSolidKindCount];
   for (const format::Solid& solid : solids.solids) {
-    for (std::uint32_t member = 0; member < 2; ++member) {
-      if (member == 1 && !is_curved(solid.kind)) continue;
-      const Counter counter = counted(solid, member, solids.detail);
-      sizes.vertices += counter.vertices;
-      sizes.indices += counter.indices;
-    }
+    OfKind& kind = kinds[static_cast<std::uint32_t>(solid.kind)];
+    if (kind.solids++ == 0) kind.first = &solid;
+  }
+  Sizes sizes;
+  for (const OfKind& kind : kinds) {
+    if (kind.solids == 0) continue;
+    const format::Solid& solid = *kind.first;
     const Counter low = counted(solid, 2, solids.detail);
-    sizes.vertices += low.corners;
-    sizes.indices += low.indices;
-    sizes.low_faces += low.faces;
-    if (low.vertices > sizes.scratch_vertices) sizes.scratch_vertices = low.vertices;
+    std::uint64_t vertices = low.corners, indices = low.indices;
+    for (std::uint32_t member = 0; member < (is_curved(solid.kind) ? 2u : 1u); ++member) {
+      const Counter counter = counted(solid, member, solids.detail);
+      vertices += counter.vertices;
+      indices += counter.indices;
+    }
     for (std::uint32_t side = 0; side < kSectionCount; ++side) {
       Vec3 places[format::kMaxAround];
       const std::uint32_t count =
           tell_section(solid.kind, solid.size, section_sides(solid.kind, solids.detail), side, places);
-      sizes.vertices += count;
-      sizes.indices += 3 * std::uint64_t{count - 2};
+      vertices += count;
+      indices += 3 * std::uint64_t{count - 2};
     }
+    sizes.vertices += kind.solids * vertices;
+    sizes.indices += kind.solids * indices;
+    sizes.low_faces += std::uint64_t{kind.solids} * low.faces;
+    if (low.vertices > sizes.scratch_vertices) sizes.scratch_vertices = low.vertices;
   }
+  sizes.kept_bytes = sizes.vertices * (sizeof(Vec3) + sizeof(PackedNormal)) + (sizes.indices * 2 + 3) / 4 * 4 +
+                     sizes.low_faces * sizeof(LowFace) + solids.solids.size() * sizeof(Members);
   return sizes;
 }
 
-std::uint64_t SolidMembers::bytes(const SolidsView& solids) {
-  const Sizes s = sizes_of(solids);
-  return s.vertices * (sizeof(Vec3) + sizeof(PackedNormal)) + (s.indices * 2 + 3) / 4 * 4 +
-         s.low_faces * sizeof(LowFace) + solids.solids.size() * sizeof(Members);
-}
+std::uint64_t SolidMembers::bytes(const SolidsView& solids) { return sizes_of(solids).kept_bytes; }
 
 Status SolidMembers::begin(const SolidsView& solids, Arena& ram) {
   view_ = {};
   if (solids.solids.empty()) return ok_status();
   const Sizes s = sizes_of(solids);
+  const std::uint64_t needed = s.kept_bytes + s.scratch_vertices * sizeof(Vec3);
   const std::size_t mark = ram.used();
   const auto refused = [&] {
     ram.rewind(mark);
-    const std::uint64_t all = bytes(solids);
     return Status{StatusCode::kResourceExhausted, "RAM has no room for the members of the solids; bytes they take",
-                  all > 0xFFFFFFFFu ? 0xFFFFFFFFu : static_cast<std::uint32_t>(all)};
+                  needed > 0xFFFFFFFFu ? 0xFFFFFFFFu : static_cast<std::uint32_t>(needed)};
   };
-  if (bytes(solids) + s.scratch_vertices * sizeof(Vec3) > ram.available()) return refused();
+  if (needed > ram.available()) return refused();
   const auto take = [&]<class T>(std::uint64_t count, std::span<T>& to, std::size_t alignment) {
     to = ram.allocate<T>(static_cast<std::size_t>(count), alignment);
     return to.size() == count;
@@ -191,10 +201,7 @@ Status SolidMembers::begin(const SolidsView& solids, Arena& ram) {
     return refused();
   const ScratchScope scope(ram);
   std::span<Vec3> scratch;
-  if (!take(s.scratch_vertices, scratch, 4)) {
-    ram.rewind(mark);
-    return refused();
-  }
+  if (!take(s.scratch_vertices, scratch, 4)) return refused();
   view_ = solids;
   MemberWriter writer(*this, scratch);
   for (std::uint32_t n = 0; n < count(); ++n) writer.write(n);

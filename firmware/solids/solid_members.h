@@ -27,9 +27,10 @@ struct DrawnMember {
 
 class SolidMembers {
  public:
-  /// Makes everything. kResourceExhausted, `where` the bytes it takes, where `ram` has no room: nothing is kept then.
+  /// Makes everything. kResourceExhausted, `where` the bytes it takes, those of its working space too, where `ram` has
+  /// no room: nothing is kept then.
   Status begin(const SolidsView& solids, Arena& ram);
-  /// Bytes that begin() takes; 0 for no solids.
+  /// Bytes that begin() keeps; 0 for no solids.
   static std::uint64_t bytes(const SolidsView& solids);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(view_.solids.size()); }
@@ -62,7 +63,7 @@ class SolidMembers {
   };
   static constexpr std::uint32_t kNoCandidate = 0xFFFFFFFFu;
   struct Sizes {
-    std::uint64_t vertices = 0, indices = 0, low_faces = 0, scratch_vertices = 0;
+    std::uint64_t vertices = 0, indices = 0, low_faces = 0, scratch_vertices = 0, kept_bytes = 0;
   };
   static Sizes sizes_of(const SolidsView& solids);
   void gather(Members& members, std::uint32_t candidate);

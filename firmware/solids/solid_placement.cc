@@ -37,6 +37,15 @@ SolidCorners corners_of(const format::Solid& solid) {
   return corners;
 }
 
+bool has_sound_sizes(const format::Solid& solid) {
+  const std::uint32_t count = format::kSolidSizeCount[static_cast<std::uint32_t>(solid.kind)];
+  for (std::uint32_t i = 0; i < format::kMaxSolidSizes; ++i) {
+    const float size = solid.size[i];
+    if (i < count ? !(size >= format::kLeastSolidSize && size <= kMaxCoordinate) : size != 0) return false;
+  }
+  return true;
+}
+
 bool is_placed_soundly(const format::Solid& solid) {
   for (const float m : solid.to_model)
     if (!(std::fabs(m) <= kMaxCoordinate)) return false;
@@ -48,7 +57,7 @@ bool is_placed_soundly(const format::Solid& solid) {
   Vec3 axes[3];
   for (int i = 0; i < 3; ++i) {
     const float l = length(placement.column[i]);
-    if (!(l > 0) || !std::isfinite(l)) return false;
+    if (!(l >= format::kLeastSolidSize) || !std::isfinite(l)) return false;
     axes[i] = placement.column[i] * (1.0f / l);
   }
   return std::fabs(dot(axes[0], cross(axes[1], axes[2]))) >= kFlat;

@@ -25,7 +25,11 @@ struct SolidCorners {
 };
 SolidCorners corners_of(const format::Solid& solid);
 
-/// Whether the solid, whose sizes are sound, is placed within kMaxCoordinate and not flattened.
+/// Whether the sizes are those of its kind, each from kLeastSolidSize to kMaxCoordinate, and the others 0.
+bool has_sound_sizes(const format::Solid& solid);
+
+/// Whether the solid, whose sizes are sound, is placed within kMaxCoordinate, neither flattened nor stretched to less
+/// than kLeastSolidSize.
 bool is_placed_soundly(const format::Solid& solid);
 
 }  // namespace usuzumi::firmware

@@ -161,7 +161,11 @@ JoinedMesh join_rom(const std::vector<std::byte>& rom, const fs::path& path, con
   std::vector<Picture> textures;
   for (std::uint32_t t = 0; options.textures && t < data->texture_count(); ++t)
     textures.push_back(picture_of(data->texture(t)));
-  return joiner.finish(std::move(textures));
+  JoinedMesh joined = joiner.finish(std::move(textures));
+  if (const std::size_t solids = data->solids().solids.size(); solids > 0)
+    joined.notes.push_back(fmt::format("{}: its {} solids are left out: what they are drawn by is made by the device",
+                                       path.string(), solids));
+  return joined;
 }
 
 JoinedMesh join_model(const Model& model, const JoinOptions& options) {

@@ -30,7 +30,7 @@ struct JoinedMesh {
   std::vector<Look> looks;                      // as many as groups
   std::vector<Picture> textures;
   std::vector<std::filesystem::path> files;  // that were read
-  std::vector<std::string> notes;            // where textures are asked for: what became of them
+  std::vector<std::string> notes;            // what was left out; where textures are asked for: what became of them
 };
 
 struct JoinOptions {

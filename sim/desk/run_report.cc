@@ -52,6 +52,7 @@ ordered_json solids_json(const firmware::SolidsReport& s) {
 std::uint32_t solids_drawn(const firmware::SolidsReport& s) {
   return s.drawn[0] + s.drawn[1] + s.drawn[2] + s.drawn[3];
 }
+std::uint32_t solids_in(const firmware::SolidsReport& s) { return solids_drawn(s) + s.clipped; }
 
 ordered_json frame_json(const FrameRecord& f) {
   const firmware::ThinningReport& t = f.firmware.thinning;
@@ -75,7 +76,7 @@ ordered_json frame_json(const FrameRecord& f) {
           {"layers", layers_json(f.layers)},
           {"solids", solids_json(f.firmware.solids)},
           {"thinning",
-           {{"cause", t.meshes_in > 0 ? cause_name(t.cause) : "nothing drawn"},
+           {{"cause", t.meshes_in + solids_in(f.firmware.solids) > 0 ? cause_name(t.cause) : "nothing drawn"},
             {"decisions", decisions_json(t)},
             {"meshes_built", t.meshes_built},
             {"meshes_collapsed", t.meshes_collapsed},
@@ -164,11 +165,11 @@ std::string run_report_text(const RunSummary& summary, std::span<const FrameReco
     text += layers_text(summary, frames);
   }
   const firmware::SolidsReport& s = last.firmware.solids;
-  if (solids_drawn(s) + s.clipped > 0)
+  if (solids_in(s) > 0)
     text += fmt::format("  solids  {} in sight of {}: {} high, {} medium, {} low, {} rough; {} faces\n",
-                        solids_drawn(s), solids_drawn(s) + s.clipped, s.drawn[0], s.drawn[1], s.drawn[2], s.drawn[3],
+                        solids_drawn(s), solids_in(s), s.drawn[0], s.drawn[1], s.drawn[2], s.drawn[3],
                         s.faces);
-  if (t.meshes_in == 0 && solids_drawn(s) + s.clipped == 0) text += "  nothing was drawn\n";
+  if (t.meshes_in + solids_in(s) == 0) text += "  nothing was drawn\n";
   text += fmt::format(
       "  device  thinning {:.2f} ms a frame ({:.2f} ms the longest), drawing {:.2f} ms a frame, scan-out {:.2f} ms "
       "(virtual time)\n",

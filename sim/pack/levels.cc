@@ -162,7 +162,7 @@ void apply_tags(Model& model, const TagSources& sources) {
     any_level = any_level || tags.level;
   }
   // First, so that no crowd of other notes hides it.
-  if (fallback.level && !any_default)
+  if (fallback.level && !any_default && !model.meshes.empty())
     model.notes.insert(
         model.notes.begin(),
         fmt::format("--default-level {} has no effect: every mesh has a level already", *fallback.level));

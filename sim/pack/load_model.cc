@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -57,16 +56,6 @@ Model import_by_extension(const fs::path& path) {
   if (file.version_major == 1) label_gltf1(file, model);
   for (const auto& [name, bytes] : file.buffer_files) model.part_files.push_back((path.parent_path() / name).string());
   return model;
-}
-
-/// Names go into ROM as UTF-8 and into one line of text; formats older than Unicode bring anything.
-std::string clean_name(const std::string& name) {
-  using nlohmann::json;
-  const std::string valid =
-      json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
-  std::string clean;
-  for (char c : valid) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '_' : c;
-  return clean;
 }
 
 /// What every importer must deliver, checked where no importer can forget it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -103,6 +104,15 @@ void make_names_unique(Model& model) {
     if (n++ == 0) continue;
     while (!used.insert(mesh.name = fmt::format("{}#{}", mesh.mesh_name, n)).second) ++n;
   }
+}
+
+std::string clean_name(const std::string& name) {
+  using nlohmann::json;
+  const std::string valid =
+      json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+  std::string clean;
+  for (char c : valid) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '_' : c;
+  return clean;
 }
 
 }  // namespace usuzumi::sim

@@ -34,4 +34,7 @@ std::string suggest(std::string_view wanted, std::span<const std::string> names)
 /// Makes mesh names unique: #2, #3 … behind the second and later meshes of a name.
 void make_names_unique(Model& model);
 
+/// Names go into ROM as UTF-8 and into one line of text; formats older than Unicode bring anything.
+std::string clean_name(const std::string& name);
+
 }  // namespace usuzumi::sim

@@ -10,11 +10,13 @@
 #include <string_view>
 #include <utility>
 
+#include "firmware/simplify/bounds.h"
 #include "firmware/solids/solid_placement.h"
 #include "hal/trigonometry.h"
 #include "sim/common/error.h"
 #include "sim/common/files.h"
 #include "sim/common/strict_json.h"
+#include "sim/pack/names.h"
 #include "sim/pack/solid_words.h"
 
 namespace usuzumi::sim {
@@ -104,7 +106,10 @@ std::array<float, 12> placement_of(const Reader& r) {
     return r.numbers<3>(key, value);
   };
   const auto position = three("position", {0, 0, 0}), scale = three("scale", {1, 1, 1});
-  const auto rotation = turned(three("rotation_deg", {0, 0, 0}));
+  const auto degrees = three("rotation_deg", {0, 0, 0});
+  for (const float angle : degrees)
+    if (!(std::fabs(angle) <= 1e6f)) r.fail("\"rotation_deg\" must be within a million degrees");
+  const auto rotation = turned(degrees);
   std::array<float, 12> out;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t c = 0; c < 3; ++c) out[4 * row + c] = static_cast<float>(rotation[3 * row + c] * double{scale[c]});
@@ -132,20 +137,20 @@ Solid read_solid(const std::string& where, const json& value) {
     const std::string_view word = kSolidWords[number].sizes[i];
     keys.push_back(word);
     solid.size[i] = r.number(word);
-    if (!(solid.size[i] > 0) || !std::isfinite(solid.size[i]))
-      r.fail(fmt::format("\"{}\" must be above 0, not {}", word, solid.size[i]));
+    if (!(solid.size[i] >= format::kLeastSolidSize && solid.size[i] <= firmware::kMaxCoordinate))
+      r.fail(fmt::format("\"{}\" must be above 0, from 1e-6 to 1e8, not {}", word, solid.size[i]));
   }
   r.expect_keys(keys, fmt::format("{}", fmt::join(keys, ", ")));
   if (r.has("name")) {
     if (!value["name"].is_string()) r.fail("\"name\" must be text");
-    solid.name = value["name"].get<std::string>();
+    solid.name = clean_name(value["name"].get<std::string>());
   }
   solid.to_model = placement_of(r);
   solid.colour = colour_of(r);
   format::Solid placed{.kind = solid.kind};
   std::copy(solid.size.begin(), solid.size.end(), placed.size);
   std::copy(solid.to_model.begin(), solid.to_model.end(), placed.to_model);
-  if (!firmware::is_placed_soundly(placed)) r.fail("is placed flat, or beyond 1e8 or -1e8");
+  if (!firmware::is_placed_soundly(placed)) r.fail("is placed flat, shrunk below 1e-6, or beyond 1e8 or -1e8");
   return solid;
 }
 
@@ -219,7 +224,7 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     const json& value = all["solids"][i];
     const bool named = value.is_object() && value.contains("name") && value["name"].is_string();
     scene.model.solids.push_back(read_solid(
-        named ? fmt::format("{}: solid {} ({})", file, i + 1, value["name"].get<std::string>())
+        named ? fmt::format("{}: solid {} ({})", file, i + 1, clean_name(value["name"].get<std::string>()))
               : fmt::format("{}: solid {}", file, i + 1),
         value));
   }

@@ -304,6 +304,7 @@ TEST_F(RunCommand, DrawsSolidsByTheMembersThatThresholdsAskFor) {
   };
   const auto whole = solids("");
   EXPECT_EQ(whole["solids"]["high"], 3);
+  EXPECT_NE(whole["thinning"]["cause"], "nothing drawn");
   EXPECT_EQ(whole["solids"]["faces"], 128 + 128 + 17) << "table 2";
   EXPECT_GT(whole["faces_drawn"].get<int>(), 128);
   // The large ball is some 35 pixels wide, the small one a quarter of that, the cone 2.
@@ -320,6 +321,14 @@ TEST_F(RunCommand, DrawsSolidsByTheMembersThatThresholdsAskFor) {
   EXPECT_EQ(low["solids"]["low"], 3);
   EXPECT_LT(low["engine_cycles"].get<int>(), whole["engine_cycles"].get<int>());
   EXPECT_EQ(solids("--thresholds 1024,1024,0 --threads 2")["crc32"], low["crc32"]);
+
+  // The button's third mode is the full picture.
+  usuzumi("run scene.rom --size 160x96 --stats stats.json --thresholds 2048,2048,2048 --frames 9 "
+          "--gpio 0:ignition=1,2:mode=1,3:mode=0,6:mode=1,7:mode=0");
+  const auto frames = json_file("stats.json")["frames"];
+  EXPECT_EQ(frames[0]["solids"]["rough"], 3);
+  EXPECT_EQ(frames[8]["mode"], "full");
+  EXPECT_EQ(frames[8]["solids"]["high"], 3);
 
   for (const char* wrong : {"1,2,3", "3,2", "3,2,1,0", "a,b,c", "3,2,-1", "", "nan,0,0"})
     expect_one_line_error(usuzumi(std::string("run scene.rom --thresholds=") + wrong), 2, "--thresholds");
