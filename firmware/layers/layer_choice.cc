@@ -90,6 +90,7 @@ float layer_of_faces(const LayerChainView& chain, float faces) {
     const auto above = static_cast<float>(layers[n - 1].faces), below = static_cast<float>(layers[n].faces);
     if (!(faces >= below)) continue;
     const float most = std::sqrt(above), least = std::sqrt(below);
+    if (!(most > least)) return static_cast<float>(n);  // of millions of faces, neighbours have one root
     return static_cast<float>(n - 1) + (most - std::sqrt(faces)) / (most - least);
   }
   return static_cast<float>(layers.size() - 1);

@@ -52,7 +52,7 @@ struct LayerChoiceSettings {
   /// vibration moves it (a tenth of a layer is a change of size by a fortieth where layers fall to 60 %).
   float hysteresis = 0.1f;
   /// Layers a frame. A whole layer takes 32 frames, half a second at 60 frames a second. In a quarter of that, textures
-  /// run across the screen so fast that a frame changes nearly as much as a switch of layers would.
+  /// run across the screen so fast that a frame changes up to half as much as a switch of layers would.
   float largest_change = 1.0f / 32;
 };
 

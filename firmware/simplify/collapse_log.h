@@ -26,7 +26,7 @@ struct Succession {
   std::uint32_t from = 0;
   std::uint32_t to : 31 = 0;
   /// No face that outlives the step named it, and `to` is another wedge of where its faces have gone: it goes to that
-  /// place, but is not to take over a colour or a piece of texture that has nothing to do with it.
+  /// place, but is not to take over a piece of texture that has nothing to do with it.
   std::uint32_t place_only : 1 = 0;
 };
 static_assert(sizeof(Succession) == 8);

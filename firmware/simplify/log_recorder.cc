@@ -67,19 +67,23 @@ void LogRecorder::record(const CollapsedEdge& collapsed) {
     log_->change(static_cast<std::uint32_t>(corner_index(c)), from, to);
   }
 
-  // Wedges that only removed faces named, and those that another stands for now.
-  const auto leave = [&](std::uint32_t wedge, std::uint32_t heir, std::uint32_t kept) {
+  // Wedges that only removed faces named, and those that another stands for now. Of a face's two either follows the
+  // other where faces still name that one, else both the same third: told first, neither counts as standing.
+  const auto leave = [&](std::uint32_t wedge, const StandingWedge& stands) {
     if (log_->current(wedge) >= first_store) return;  // it stays, or was told of
-    const bool heir_stays = log_->current(heir) >= first_store;
-    const StandingWedge stands = heir_stays ? StandingWedge{heir, true} : standing(collapsed.vertex, kept);
     const std::uint32_t to = log_->current(stands.wedge);
     log_->follow(log_->current(wedge), to, stands.same_texture);
     log_->set_current(wedge, to);
   };
   for (std::uint32_t i = 0; i < collapsed.faces_removed; ++i) {
     const RemovedFace& removed = collapsed.removed[i];
-    leave(removed.removed_wedge, removed.kept_wedge, removed.kept_wedge);
-    leave(removed.kept_wedge, removed.removed_wedge, removed.kept_wedge);
+    StandingWedge stands = standing(collapsed.vertex, removed.kept_wedge);
+    if (stands.wedge != removed.kept_wedge) {
+      const StandingWedge other = standing(collapsed.vertex, removed.removed_wedge);
+      if (other.wedge == removed.removed_wedge) stands = other;
+    }
+    leave(removed.removed_wedge, stands);
+    leave(removed.kept_wedge, stands);
     leave_apex(removed, first_store);
     log_->remove_face(removed.face);
   }
